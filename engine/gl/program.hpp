@@ -1,0 +1,69 @@
+/// Programs from files of the GLSL library, with includes, variants, and messages that name file and line.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lobe::gl {
+
+/// A variant key: sorted defines. "KEY" -> value ("1" for a flag).
+using Defines = std::map<std::string, std::string>;
+
+/// GLSL text with the place that each line came from.
+struct ShaderSource {
+    std::string text;
+    struct Place {
+        std::string file;
+        int line;
+    };
+    std::vector<Place> places;  ///< one a line of text
+};
+
+/// Reads shader files. `#include "brdf/ward.glsl"` is rooted at the library; each file is taken once. Names in
+/// `generated` are taken before files ("generated/material.glsl").
+class ShaderLibrary {
+public:
+    explicit ShaderLibrary(std::filesystem::path root);
+    /// The whole text: "#version 330 core", the defines, then `file` with its includes. Throws ShaderError (missing
+    /// file, include cycle or depth) naming file and line.
+    ShaderSource source(const std::string& file, const Defines& defines,
+                        const std::map<std::string, std::string>& generated = {}) const;
+    const std::filesystem::path& root() const { return root_; }
+
+private:
+    std::filesystem::path root_;
+};
+
+/// A linked program. Move-only.
+class Program {
+public:
+    Program() = default;
+    /// Throws ShaderError: "pass/light.frag:41: message", with three lines of source, for each of the driver's lines
+    /// that can be placed.
+    Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name);
+    Program(Program&&) noexcept;
+    Program& operator=(Program&&) noexcept;
+    ~Program();
+
+    void use() const;
+    unsigned id() const { return id_; }
+    /// Location, -1 if the program does not use that name. Cached.
+    int uniform(const std::string& name) const;
+    void set(const std::string& name, int value) const;  // the program must be in use
+    void set(const std::string& name, float value) const;
+    void set(const std::string& name, const glm::vec2& value) const;
+    void set(const std::string& name, const glm::vec3& value) const;
+    void set(const std::string& name, const glm::vec4& value) const;
+    void set(const std::string& name, const glm::mat3& value) const;
+    void set(const std::string& name, const glm::mat4& value) const;
+    void set(const std::string& name, const glm::ivec2& value) const;
+
+private:
+    unsigned id_ = 0;
+    mutable std::map<std::string, int> locations_;
+};
+
+}  // namespace lobe::gl

@@ -1,0 +1,54 @@
+/// Runs a FramePlan on an OpenGL context: scene in, linear radiance and timings out.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/context.hpp"
+#include "image/image.hpp"
+#include "plan/plan.hpp"
+#include "scene/camera.hpp"
+#include "scene/scene.hpp"
+
+namespace lobe {
+
+struct PassTime {
+    std::string pass;
+    double milliseconds = 0.0;
+};
+
+struct Picture {
+    /// R,G,B,A: radiance and coverage, or everything asked for as named layers (plan/aov.hpp).
+    Image image;
+    std::vector<PassTime> passTimes;  ///< summed over the samples of the frame; "readback" included
+    double milliseconds = 0.0;        ///< wall clock, from the first draw to the pixels being here
+};
+
+struct RenderOptions {
+    int width = 1280;
+    int height = 720;
+    Quality quality;
+    AovSet aovs = {Aov::radiance};
+    bool timePasses = false;  ///< costs a finish a pass on software drivers
+};
+
+/// One a context; reuses uploads and programs from picture to picture. Throws ShaderError, ContextError.
+class Renderer {
+public:
+    explicit Renderer(gl::Context& context);
+    ~Renderer();
+
+    /// Uploads what the plan needs of the scene. The scene is kept until the next call.
+    void setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options);
+    /// The plan of the scene and options set last.
+    const FramePlan& plan() const;
+
+    Picture render(const Camera& camera);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lobe

@@ -1,0 +1,33 @@
+/// The quality knobs, and the presets that set them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lobe {
+
+enum class Shading : uint8_t {
+    deferred,
+    forward  ///< every surface in the forward pass: the check on the deferred path
+};
+
+struct Quality {
+    /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none, ssaa4, ssaa16).
+    int samples = 4;
+    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals: 32 here means 2x32F.
+    int gbufferBits = 16;
+    /// Bits a texel component of textures that are filtered: 8, 16 or 32 (float).
+    int textureBits = 8;
+    Shading shading = Shading::deferred;
+    /// Light lists per cluster of pixels: from this many lights of a type on; 0: never.
+    int clusterFrom = 9;
+
+    bool operator==(const Quality&) const = default;
+};
+
+/// draft, balanced, high, converged.
+const std::vector<std::string>& qualityPresetNames();
+Quality qualityPreset(const std::string& name);  ///< throws UsageError
+
+}  // namespace lobe
