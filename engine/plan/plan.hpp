@@ -2,8 +2,7 @@
 /// left out, each with its reason. Pure: no OpenGL, no files.
 #pragma once
 
-#include <optional>
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,58 +13,76 @@
 
 namespace lobe {
 
-/// A texture or buffer of the frame, by what it holds.
+/// A texture of the frame, by what it holds.
 struct Channel {
-    std::string name;     ///< "depth", "normal", "material", "parameters0", "radiance"
+    std::string name;     ///< "depth", "normal", "material", "parameters0", "radiance", ...
     std::string format;   ///< GL name: "RG16", "RGBA32F", "DEPTH_COMPONENT32F"
     int bytesPerPixel = 0;
-    std::string holds;    ///< for people: "octahedral shading normal", "baseColor.rgb, roughness"
+    std::string holds;    ///< for people: "octahedral shading normal", "baseColor.rgb roughness"
     std::string reason;   ///< why it is there and why in this format
 };
 
 /// Where a parameter that varies within a material is kept in the G-buffer.
 struct ParameterPlace {
-    int parameter = -1;   ///< index in Brdf::parameters
-    int target = 0;       ///< parameters0, parameters1, ...
-    int component = 0;    ///< first component in that target
+    int parameter = -1;  ///< index in Brdf::parameters
+    int target = 0;      ///< parameters0, parameters1, ...
+    int component = 0;   ///< first component in that target
+};
+
+/// One model of the opaque surfaces, as the lighting passes see it. Parameters that are in neither list are the same
+/// for all its materials and reach the shaders as uniforms.
+struct PlannedBrdf {
+    std::string name;
+    int stencil = 0;                      ///< mask value; 0 when all pixels have this model
+    std::vector<ParameterPlace> perPixel;  ///< read from the G-buffer
+    std::vector<int> perMaterial;          ///< looked up in the material table, packed in this order
+};
+
+/// One compiled form of a pass's program.
+struct Variant {
+    std::string brdf;
+    int surface = -1;                            ///< index into FramePlan::surfaces; -1 for screen passes
+    std::map<std::string, std::string> defines;  ///< sorted by key
 };
 
 struct PlannedPass {
-    std::string name;                        ///< "gbuffer", "light.point", "forward", ...
-    std::string program;                     ///< shader file, "" for passes without one
-    std::vector<std::string> variants;       ///< one a compiled program: sorted "KEY" or "KEY=value" separated by ' '
+    std::string name;     ///< "gbuffer", "light.point", "forward", ...
+    std::string program;  ///< shader file; empty for passes without one
+    std::vector<Variant> variants;
     std::vector<std::string> reads, writes;  ///< channel names
     std::string reason;                      ///< why it runs
 };
 
 struct LeftOut {
-    std::string kind;    ///< "pass", "channel", "variant", "texture", "buffer"
+    std::string kind;  ///< "pass", "channel", "vertex data", "texture", "buffer"
     std::string name;
     std::string reason;
-};
-
-/// One model of the scene as the lighting passes see it.
-struct PlannedBrdf {
-    std::string name;                        ///< registry name, or "unlit"
-    int stencil = 0;                         ///< mask value; 0 when the scene has one model only
-    std::vector<ParameterPlace> places;      ///< parameters that are read from the G-buffer, others from the table
 };
 
 struct FramePlan {
     Quality quality;
     int samples = 1;
-    bool reversedDepth = true;    ///< needs clip control; otherwise linear z in a channel of its own
+    bool reversedDepth = true;  ///< needs clip control; otherwise linear z in a channel of its own
+    bool masked = false;        ///< lighting passes are masked by stencil, a value a model
+    bool ambient = false;
     bool clusteredPoint = false, clusteredSpot = false;
+    int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
+    std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
+    std::vector<std::string> gbufferTargets;       ///< colour attachments of the G-buffer pass, in order of location
+    std::vector<std::string> contributionTargets;  ///< of the contributions AOV, in order of summation; else empty
+    std::vector<std::string> dataTargets;          ///< colour attachments of the AOV pass
     std::vector<PlannedPass> passes;
     std::vector<LeftOut> leftOut;
     std::vector<std::string> lightGroups;  ///< for people: "point: 100 lights in clusters of 64 px x 24 slices"
-    std::vector<std::string> textures;     ///< for people: one line a texture kept, with format and user
-    std::vector<std::string> notes;        ///< decisions that are neither kept nor left out: background, camera, ...
+    std::vector<std::string> textures;     ///< for people: one line a texture kept
+    std::vector<std::string> notes;        ///< decisions about the whole frame
 
-    bool hasPass(std::string_view name) const;
+    const PlannedPass* pass(std::string_view name) const;
     const Channel* channel(std::string_view name) const;
+    const PlannedBrdf* brdf(std::string_view name) const;
+    int gbufferBytesPerPixel() const;
 };
 
 FramePlan planFrame(const SceneSummary& summary, const Quality& quality, const Capabilities& capabilities,

@@ -1,6 +1,7 @@
 /// What the plan must know of a scene: a few facts, taken once.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -11,57 +12,84 @@
 
 namespace lobe {
 
+/// Name under which an unlit surface stands where others have a registered model.
+inline constexpr const char* kUnlit = "unlit";
+
 /// Facts about all materials of one model that are in use.
 struct BrdfFacts {
     std::string name;
     int materials = 0;
-    std::set<int> texturedParameters;   ///< indices into Brdf::parameters
-    bool vertexColors = false;          ///< some primitive multiplies its base colour by vertex colours
-    double sharpness = 0.0;             ///< largest Brdf::lobeSharpness
+    std::set<int> perPixel;     ///< indices into Brdf::parameters that a texture or vertex colours vary
+    std::set<int> perMaterial;  ///< not per pixel, but different from material to material
+    double sharpness = 0.0;     ///< largest Brdf::lobeSharpness
     bool usesTangent = false;
+};
+
+/// One texture fetch of a surface shader.
+struct SurfaceSample {
+    int uvSet = 0;
+    bool transformed = false;
+    auto operator<=>(const SurfaceSample&) const = default;
+};
+
+/// What a fetched texel is used for. Slots are parameter names, or "normal", "occlusion", "emission", "alpha".
+struct SurfaceTexture {
+    std::string slot;
+    int sample = 0;   ///< index into SurfaceFeatures::samples
+    int channel = 0;  ///< for scalar slots
+    auto operator<=>(const SurfaceTexture&) const = default;
 };
 
 /// One combination of features that a surface shader must serve: a variant of the G-buffer or forward program.
 struct SurfaceFeatures {
     std::string brdf;
-    std::set<int> texturedParameters;
-    bool normalMap = false;
-    bool occlusionMap = false;
-    bool emissionMap = false;
+    std::vector<SurfaceSample> samples;
+    std::vector<SurfaceTexture> textures;
     bool emission = false;
     bool vertexColors = false;
-    bool alphaTexture = false;
-    bool secondUv = false;
-    bool textureTransform = false;
     AlphaMode alphaMode = AlphaMode::opaque;
     auto operator<=>(const SurfaceFeatures&) const = default;
+
+    const SurfaceTexture* texture(std::string_view slot) const;
+    bool usesUv(int set) const;
 };
 
 struct SceneSummary {
-    std::vector<BrdfFacts> brdfs;          ///< sorted by name; "unlit" included
-    std::set<SurfaceFeatures> surfaces;
-    int materialCount = 0;                 ///< in use
+    std::vector<BrdfFacts> brdfs;  ///< sorted by name; kUnlit included; of opaque and masked surfaces only
+    std::set<std::string> blendedBrdfs;
+    std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once
+    std::vector<int> materialsInUse;        ///< indices into Scene::materials, ascending
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
     bool ambient = false;
     bool emission = false;
-    bool blended = false, masked = false, opaque = false;
-    bool normalMaps = false, tangents = false, vertexColors = false, secondUv = false, occlusion = false;
-    size_t triangles = 0, instances = 0;
-    std::vector<std::string> textures;     ///< names of those in use, with their user
+    bool opaque = false, masked = false, blended = false;
+    bool normalMaps = false, tangents = false, vertexColors = false, occlusion = false;
+    bool uv[2] = {false, false};
+    size_t triangles = 0, instances = 0, blendedInstances = 0;
+    std::vector<std::string> textures;        ///< "images[0] helmet_albedo.jpg: baseColor of 2 materials"
     std::vector<std::string> unusedTextures;
+
+    bool lit() const { return directionalLights + pointLights + spotLights > 0 || ambient; }
 };
 
 SceneSummary summarise(const Scene& scene);
 
-/// What a material asks of a surface shader, with the vertex data that `primitive` brings.
-SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive);
+/// What a material asks of a surface shader, with the vertex data that `primitive` brings. Occlusion textures count
+/// only where there is ambient light for them to act on.
+SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool ambient);
 
-/// The scene with every material's model replaced (`--brdf NAME`), parameters by Brdf::fromMetallicRoughness and the
-/// base colour texture carried over; unlit materials stay.
+/// The texture slot behind a name of SurfaceTexture::slot.
+const TextureSlot& slotOf(const Material& material, std::string_view slot);
+/// Whether the texels of a slot are sRGB encoded.
+bool slotIsSrgb(const Material& material, std::string_view slot);
+
+/// The scene with every material's model replaced (`--brdf NAME`): parameters by Brdf::fromMetallicRoughness, the base
+/// colour texture carried over, other textures by their mean; unlit materials stay.
 Scene withBrdf(const Scene& scene, const Brdf& brdf);
 
-/// The documented light of a scene without any: see docs/scenes.md. Returns false if the scene needs none.
+/// The documented light of a scene without any (docs/scenes.md): a key light over the camera's left shoulder and a
+/// little ambient. Returns false, and adds nothing, if the scene has a light or nothing that takes light.
 bool addDefaultLight(Scene& scene, const Camera& camera);
 
 }  // namespace lobe

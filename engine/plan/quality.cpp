@@ -1,0 +1,22 @@
+#include "plan/quality.hpp"
+
+#include "base/closest_name.hpp"
+#include "base/error.hpp"
+
+namespace lobe {
+
+const std::vector<std::string>& qualityPresetNames() {
+    static const std::vector<std::string> names = {"draft", "balanced", "high", "converged"};
+    return names;
+}
+
+Quality qualityPreset(const std::string& name) {
+    if (name == "draft") return {.samples = 1, .gbufferBits = 8, .textureBits = 8};
+    if (name == "balanced") return {};
+    if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16};
+    if (name == "converged") return {.samples = 16, .gbufferBits = 32, .textureBits = 32};
+    throw UsageError("quality '" + name + "'; expected draft, balanced, high or converged" +
+                     didYouMean(name, qualityPresetNames()));
+}
+
+}  // namespace lobe

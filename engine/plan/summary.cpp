@@ -1,0 +1,214 @@
+#include "plan/summary.hpp"
+
+#include <algorithm>
+
+namespace lobe {
+namespace {
+
+/// Gathers the texture fetches of one surface: slots that read the same texels in the same way share one.
+class SampleCollector {
+public:
+    SampleCollector(const Material& material, SurfaceFeatures& features) : material_(material), features_(features) {}
+
+    void use(const std::string& name, const TextureSlot& slot, int channel = 0) {
+        if (!slot) return;
+        const bool srgb = slotIsSrgb(material_, name);
+        const bool alphaOnly = name == "alpha";
+        size_t sample = 0;
+        while (sample < slots_.size() && !(slots_[sample].slot == slot && (alphaOnly || slots_[sample].srgb == srgb)))
+            ++sample;
+        if (sample == slots_.size()) {
+            slots_.push_back({slot, srgb});
+            features_.samples.push_back({slot.uvSet, slot.transformed()});
+        }
+        features_.textures.push_back({name, static_cast<int>(sample), channel});
+    }
+
+private:
+    struct Fetch {
+        TextureSlot slot;
+        bool srgb;
+    };
+    const Material& material_;
+    SurfaceFeatures& features_;
+    std::vector<Fetch> slots_;
+};
+
+bool valuesDiffer(const Brdf& brdf, int parameter, const ParameterValues& a, const ParameterValues& b) {
+    const int offset = brdf.valueOffset(parameter);
+    const int count = brdf.parameters[static_cast<size_t>(parameter)].components();
+    for (int i = offset; i < offset + count; ++i)
+        if (a[static_cast<size_t>(i)] != b[static_cast<size_t>(i)]) return true;
+    return false;
+}
+
+struct Use {
+    const Material* material;
+    bool vertexColors = false;
+};
+
+BrdfFacts factsOf(const std::string& name, const std::vector<Use>& uses) {
+    BrdfFacts facts;
+    facts.name = name;
+    facts.materials = static_cast<int>(uses.size());
+    if (name == kUnlit) return facts;
+    const Brdf& brdf = requireBrdf(name);
+    facts.usesTangent = brdf.traits.usesTangent;
+    const int baseColor = brdf.parameterIndex(brdf.baseColorParameter);
+    for (const Use& use : uses) {
+        facts.sharpness = std::max(facts.sharpness, brdf.lobeSharpness(use.material->values));
+        if (use.vertexColors && baseColor >= 0) facts.perPixel.insert(baseColor);
+        for (size_t p = 0; p < use.material->textures.size(); ++p)
+            if (use.material->textures[p]) facts.perPixel.insert(static_cast<int>(p));
+    }
+    for (int p = 0; p < static_cast<int>(brdf.parameters.size()); ++p)
+        for (const Use& use : uses)
+            if (!facts.perPixel.contains(p) && valuesDiffer(brdf, p, use.material->values, uses[0].material->values))
+                facts.perMaterial.insert(p);
+    return facts;
+}
+
+std::string imageLabel(const Scene& scene, int texture) {
+    const int image = scene.textures[static_cast<size_t>(texture)].image;
+    if (image < 0) return "texture " + std::to_string(texture) + " (no image)";
+    const auto index = static_cast<size_t>(image);
+    return "images[" + std::to_string(image) + "]" +
+           (index < scene.imageNames.size() && !scene.imageNames[index].empty() ? " " + scene.imageNames[index] : "");
+}
+
+void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) {
+    std::map<int, std::map<std::string, int>> users;  // texture -> slot -> materials
+    for (int m : summary.materialsInUse) {
+        const Material& material = scene.materials[static_cast<size_t>(m)];
+        const SurfaceFeatures features = surfaceFeatures(material, Primitive{}, ambient);
+        for (const SurfaceTexture& texture : features.textures)
+            ++users[slotOf(material, texture.slot).texture][texture.slot];
+    }
+    for (int t = 0; t < static_cast<int>(scene.textures.size()); ++t) {
+        if (!users.contains(t)) {
+            summary.unusedTextures.push_back(imageLabel(scene, t));
+            continue;
+        }
+        std::string line = imageLabel(scene, t) + ":";
+        for (const auto& [slot, count] : users[t])
+            line += " " + slot + " of " + std::to_string(count) + (count == 1 ? " material," : " materials,");
+        line.pop_back();
+        summary.textures.push_back(line);
+    }
+}
+
+void countLights(const Scene& scene, SceneSummary& summary) {
+    for (const Light& light : scene.lights) {
+        switch (light.type) {
+            case LightType::directional: ++summary.directionalLights; break;
+            case LightType::point:
+                ++summary.pointLights;
+                summary.rangedPointLights += light.range ? 1 : 0;
+                break;
+            case LightType::spot:
+                ++summary.spotLights;
+                summary.rangedSpotLights += light.range ? 1 : 0;
+                break;
+        }
+    }
+    summary.ambient = scene.ambientRadiance && *scene.ambientRadiance != glm::dvec3(0.0);
+}
+
+}  // namespace
+
+const SurfaceTexture* SurfaceFeatures::texture(std::string_view slot) const {
+    for (const SurfaceTexture& candidate : textures)
+        if (candidate.slot == slot) return &candidate;
+    return nullptr;
+}
+
+bool SurfaceFeatures::usesUv(int set) const {
+    return std::any_of(samples.begin(), samples.end(), [set](const SurfaceSample& s) { return s.uvSet == set; });
+}
+
+const TextureSlot& slotOf(const Material& material, std::string_view slot) {
+    if (slot == "normal") return material.normalTexture;
+    if (slot == "occlusion") return material.occlusionTexture;
+    if (slot == "emission") return material.emissionTexture;
+    if (slot == "alpha" || material.brdf == kUnlit) return material.baseColorTexture;
+    return material.textures[static_cast<size_t>(requireBrdf(material.brdf).parameterIndex(slot))];
+}
+
+bool slotIsSrgb(const Material& material, std::string_view slot) {
+    if (slot == "normal" || slot == "occlusion") return false;
+    if (slot == "emission" || slot == "alpha" || material.brdf == kUnlit) return true;
+    const Brdf& brdf = requireBrdf(material.brdf);
+    return brdf.parameters[static_cast<size_t>(brdf.parameterIndex(slot))].textureIsSrgb;
+}
+
+SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool ambient) {
+    SurfaceFeatures features;
+    features.brdf = material.brdf;
+    features.alphaMode = material.alphaMode;
+    features.vertexColors = !primitive.colors.empty();
+    features.emission = material.emission != glm::vec3(0.0f);
+
+    SampleCollector collector(material, features);
+    if (material.brdf == kUnlit) {
+        collector.use("baseColor", material.baseColorTexture);
+        features.emission = false;  // KHR_materials_unlit: the base colour is all there is
+    } else {
+        const Brdf& brdf = requireBrdf(material.brdf);
+        for (size_t p = 0; p < material.textures.size(); ++p)
+            collector.use(brdf.parameters[p].name, material.textures[p], material.textureChannels[p]);
+        collector.use("normal", material.normalTexture);
+        if (ambient) collector.use("occlusion", material.occlusionTexture);
+        if (features.emission) collector.use("emission", material.emissionTexture);
+    }
+    if (material.alphaMode != AlphaMode::opaque) collector.use("alpha", material.baseColorTexture, 3);
+    return features;
+}
+
+SceneSummary summarise(const Scene& scene) {
+    SceneSummary summary;
+    countLights(scene, summary);
+
+    std::map<std::string, std::map<int, Use>> opaqueUses;  // model -> material -> use
+    std::set<SurfaceFeatures> surfaces;
+    std::set<int> materials;
+    for (const Instance& instance : scene.instances) {
+        const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
+        const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+        const SurfaceFeatures features = surfaceFeatures(material, primitive, summary.ambient);
+        surfaces.insert(features);
+        materials.insert(primitive.material);
+        ++summary.instances;
+        summary.triangles += primitive.triangleCount();
+        summary.opaque |= material.alphaMode == AlphaMode::opaque;
+        summary.masked |= material.alphaMode == AlphaMode::mask;
+        summary.emission |= features.emission;
+        summary.vertexColors |= features.vertexColors;
+        summary.normalMaps |= features.texture("normal") != nullptr;
+        summary.occlusion |= features.texture("occlusion") != nullptr;
+        for (int set : {0, 1})
+            summary.uv[set] |= features.usesUv(set);
+        const bool usesTangent = material.brdf != kUnlit && requireBrdf(material.brdf).traits.usesTangent;
+        summary.tangents |= usesTangent || features.texture("normal") != nullptr;
+        if (material.alphaMode == AlphaMode::blend) {
+            summary.blended = true;
+            ++summary.blendedInstances;
+            summary.blendedBrdfs.insert(material.brdf);
+            continue;
+        }
+        Use& use = opaqueUses[material.brdf][primitive.material];
+        use.material = &material;
+        use.vertexColors |= features.vertexColors;
+    }
+    for (const auto& [name, uses] : opaqueUses) {
+        std::vector<Use> list;
+        for (const auto& [index, use] : uses)
+            list.push_back(use);
+        summary.brdfs.push_back(factsOf(name, list));
+    }
+    summary.surfaces.assign(surfaces.begin(), surfaces.end());
+    summary.materialsInUse.assign(materials.begin(), materials.end());
+    summariseTextures(scene, summary.ambient, summary);
+    return summary;
+}
+
+}  // namespace lobe
