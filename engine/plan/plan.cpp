@@ -372,6 +372,7 @@ private:
             for (const auto& [key, value] : lights) {
                 Defines defines = commonDefines();
                 defines[key] = value;
+                if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
                 pass.variants.push_back({brdf.name, -1, defines});
             }
         }

@@ -1,0 +1,101 @@
+#include "passes/readback.hpp"
+
+#include <algorithm>
+
+namespace lobe {
+namespace {
+
+/// RGBA float rows of a target, bottom row first as GL counts.
+std::vector<float> readTarget(const Targets& targets, const std::string& channel, int components) {
+    const size_t count = static_cast<size_t>(targets.width()) * static_cast<size_t>(targets.height());
+    std::vector<float> values(count * static_cast<size_t>(components));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, targets.single(channel));
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, targets.width(), targets.height(), components == 1 ? GL_RED : GL_RGBA, GL_FLOAT, values.data());
+    return values;
+}
+
+/// Copies `count` components of a target into channels of the image from `first` on, turned over.
+void place(Image& image, size_t first, size_t count, const std::vector<float>& values, size_t stride) {
+    const auto width = static_cast<size_t>(image.width);
+    for (int y = 0; y < image.height; ++y) {
+        const float* source = values.data() + static_cast<size_t>(image.height - 1 - y) * width * stride;
+        float* row = image.pixel(0, y) + first;
+        for (size_t x = 0; x < width; ++x)
+            std::copy_n(source + x * stride, count, row + x * image.channelCount());
+    }
+}
+
+struct Layer {
+    std::string target;               ///< of Targets; empty: the sum of the contributions
+    std::vector<std::string> channels;
+    int components;                   ///< as stored: 1 or 4
+};
+
+std::vector<Layer> layersOf(const FramePlan& plan, const AovSet& aovs) {
+    const std::string prefix = plan.samples > 1 ? "accumulated." : "";
+    std::vector<Layer> layers;
+    if (aovs.contains(Aov::radiance)) layers.push_back({prefix + "radiance", {"R", "G", "B", "A"}, 4});
+    const auto data = [&](Aov aov, std::vector<std::string> channels, int components) {
+        const std::string target = "aov." + aovNames()[static_cast<size_t>(aov)];
+        if (aovs.contains(aov)) layers.push_back({target, std::move(channels), components});
+    };
+    data(Aov::depth, {"depth.Z"}, 1);
+    data(Aov::position, {"position.X", "position.Y", "position.Z"}, 4);
+    data(Aov::normal, {"normal.X", "normal.Y", "normal.Z"}, 4);
+    data(Aov::albedo, {"albedo.R", "albedo.G", "albedo.B"}, 4);
+    data(Aov::materialId, {"material.id"}, 1);
+    data(Aov::roughness, {"roughness.Y"}, 1);
+    for (const std::string& name : plan.contributionTargets)
+        layers.push_back({prefix + "contribution." + name, {name + ".R", name + ".G", name + ".B"}, 4});
+    return layers;
+}
+
+/// With contributions, radiance is their sum, in the order in which the passes would have added them.
+std::vector<float> summedContributions(const FramePlan& plan, const Targets& targets) {
+    const std::string prefix = plan.samples > 1 ? "accumulated." : "";
+    std::vector<float> sum = readTarget(targets, prefix + "radiance", 4);
+    for (size_t i = 0; i < sum.size(); ++i)
+        if (i % 4 != 3) sum[i] = 0.0f;
+    for (const std::string& name : plan.contributionTargets) {
+        const std::vector<float> part = readTarget(targets, prefix + "contribution." + name, 4);
+        for (size_t i = 0; i < sum.size(); ++i)
+            if (i % 4 != 3) sum[i] += part[i];
+    }
+    return sum;
+}
+
+}  // namespace
+
+Image readPicture(const FramePlan& plan, const Targets& targets, const View& view, const AovSet& aovs) {
+    const std::vector<Layer> layers = layersOf(plan, aovs);
+    std::vector<std::string> names;
+    for (const Layer& layer : layers)
+        names.insert(names.end(), layer.channels.begin(), layer.channels.end());
+    Image image(targets.width(), targets.height(), names);
+    size_t first = 0;
+    for (const Layer& layer : layers) {
+        // A scene without opaque surfaces has no data AOVs: they stay 0, "nothing is there".
+        if (targets.has(layer.target)) {
+            const bool sum = layer.channels[0] == "R" && !plan.contributionTargets.empty();
+            const std::vector<float> values =
+                sum ? summedContributions(plan, targets) : readTarget(targets, layer.target, layer.components);
+            place(image, first, layer.channels.size(), values, static_cast<size_t>(layer.components));
+            if (layer.channels[0] == "position.X")
+                for (size_t i = 0; i < image.pixelCount(); ++i) {
+                    float* pixel = image.values.data() + i * image.channelCount() + first;
+                    const size_t row = i / static_cast<size_t>(image.width);
+                    const size_t source = (static_cast<size_t>(image.height) - 1 - row) * static_cast<size_t>(image.width) +
+                                          i % static_cast<size_t>(image.width);
+                    if (values[source * 4 + 3] == 0.0f) continue;
+                    for (int c = 0; c < 3; ++c)
+                        pixel[c] = static_cast<float>(static_cast<double>(pixel[c]) + view.eye[c]);
+                }
+        }
+        first += layer.channels.size();
+    }
+    return image;
+}
+
+}  // namespace lobe

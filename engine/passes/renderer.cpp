@@ -1,0 +1,191 @@
+#include "passes/renderer.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "base/resources.hpp"
+#include "gl/objects.hpp"
+#include "gl/timer.hpp"
+#include "passes/pass.hpp"
+#include "passes/readback.hpp"
+
+namespace lobe {
+namespace {
+
+/// Sample i of n within the pixel, relative to its centre: the R2 sequence (Roberts 2018), stratified and the same in
+/// every pixel. One sample is the centre.
+glm::dvec2 jitter(int index, int count) {
+    if (count == 1) return glm::dvec2(0.0);
+    const double g = 1.32471795724474602596;
+    const double x = 0.5 + (index + 1) / g;
+    const double y = 0.5 + (index + 1) / (g * g);
+    return {x - std::floor(x) - 0.5, y - std::floor(y) - 0.5};
+}
+
+}  // namespace
+
+Capabilities capabilitiesOf(const gl::ContextInfo& info) {
+    Capabilities capabilities;
+    capabilities.clipControl = info.clipControl;
+    capabilities.anisotropicFilter = info.anisotropicFilter;
+    capabilities.softwareRasteriser = info.software;
+    capabilities.reliableTimers = info.reliableTimers;
+    capabilities.maxTextureSize = info.maxTextureSize;
+    capabilities.maxColorAttachments = std::min(info.maxColorAttachments, info.maxDrawBuffers);
+    capabilities.maxTextureBufferTexels = info.maxTextureBufferTexels;
+    return capabilities;
+}
+
+struct Renderer::State {
+    explicit State(gl::Context& glContext)
+        : context(glContext),
+          capabilities(capabilitiesOf(glContext.info())),
+          programs(gl::ShaderLibrary(shaderDirectory())) {}
+
+    /// All that belongs to one scene and one set of options.
+    struct SceneState {
+        SceneState(std::shared_ptr<const Scene> sceneToDraw, const RenderOptions& renderOptions, FramePlan framePlan,
+                   const Capabilities& capabilities, ProgramCache& programs)
+            : scene(std::move(sceneToDraw)),
+              options(renderOptions),
+              plan(std::move(framePlan)),
+              targets(plan, renderOptions.width, renderOptions.height),
+              surfaces(*scene, plan, capabilities, programs),
+              lights(*scene, plan),
+              inputs(*scene, plan),
+              resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
+            for (const PlannedPass& planned : plan.passes) {
+                auto pass = makePass(planned, resources);
+                pass->prepare();
+                if (planned.name == "aov")
+                    data = std::move(pass);
+                else if (planned.name == "accumulate")
+                    accumulate = std::move(pass);
+                else
+                    frame.push_back(std::move(pass));
+            }
+        }
+        std::shared_ptr<const Scene> scene;
+        RenderOptions options;
+        FramePlan plan;
+        Targets targets;
+        SurfaceDraws surfaces;
+        LightBuffers lights;
+        ScreenInputs inputs;
+        FrameResources resources;
+        std::vector<std::unique_ptr<Pass>> frame;
+        std::unique_ptr<Pass> accumulate, data;
+    };
+
+    void clearPictures() const {
+        const FramePlan& plan = current->plan;
+        const float black[] = {0.0f, 0.0f, 0.0f, 0.0f};
+        std::vector<std::string> pictures = {"radiance"};
+        for (const std::string& name : plan.contributionTargets)
+            pictures.push_back("contribution." + name);
+        for (const std::string& picture : pictures) {
+            if (std::find(plan.gbufferTargets.begin(), plan.gbufferTargets.end(), picture) != plan.gbufferTargets.end())
+                continue;  // cleared with the G-buffer
+            glBindFramebuffer(GL_FRAMEBUFFER, current->targets.single(picture));
+            glClearBufferfv(GL_COLOR, 0, black);
+        }
+    }
+
+    void clearAccumulated() const {
+        const float black[] = {0.0f, 0.0f, 0.0f, 0.0f};
+        for (const Channel& channel : current->plan.channels) {
+            const std::string target = "accumulated." + channel.name;
+            if (!current->targets.has(target)) continue;
+            glBindFramebuffer(GL_FRAMEBUFFER, current->targets.single(target));
+            glClearBufferfv(GL_COLOR, 0, black);
+        }
+    }
+
+    void setDepthRange() const {
+        if (!capabilities.clipControl) return;
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    }
+
+    /// The view's reversed depth in 0..1, or GL's own -1..1 with 1 far where clip control is absent.
+    View adapted(View view) const {
+        if (current->plan.reversedDepth) return view;
+        glm::dmat4 flip(1.0);
+        flip[2][2] = -2.0;
+        flip[3][2] = 1.0;
+        view.clipFromRelative = flip * view.clipFromRelative;
+        return view;
+    }
+
+    gl::Context& context;
+    Capabilities capabilities;
+    ProgramCache programs;
+    std::unique_ptr<SceneState> current;
+};
+
+Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(context)) {}
+Renderer::~Renderer() = default;
+
+void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options) {
+    FramePlan plan = planFrame(summarise(*scene), options.quality, state_->capabilities, options.aovs);
+    state_->current.reset();
+    state_->current =
+        std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan), state_->capabilities, state_->programs);
+    gl::checkErrors("setting up the scene");
+}
+
+const FramePlan& Renderer::plan() const { return state_->current->plan; }
+
+Picture Renderer::render(const Camera& camera) {
+    State::SceneState& current = *state_->current;
+    const RenderOptions& options = current.options;
+    const auto start = std::chrono::steady_clock::now();
+    gl::PassTimer timer(state_->capabilities.reliableTimers);
+    const auto mark = [&](const std::string& name) {
+        if (options.timePasses) timer.mark(name);
+    };
+    if (options.timePasses) timer.start();
+
+    state_->setDepthRange();
+    glViewport(0, 0, options.width, options.height);
+    glDisable(GL_DITHER);
+    const View center = state_->adapted(makeView(camera, options.width, options.height));
+    // With several samples, data AOVs need a frame of their own at the pixel centres.
+    if (current.data && current.plan.samples > 1) {
+        for (const auto& pass : current.frame)
+            if (pass->name() == "gbuffer") pass->run(center);
+        current.data->run(center);
+        mark("aov");
+    }
+    if (current.accumulate) state_->clearAccumulated();
+    for (int sample = 0; sample < current.plan.samples; ++sample) {
+        const View view = state_->adapted(
+            makeView(camera, options.width, options.height, jitter(sample, current.plan.samples)));
+        current.lights.update(view);
+        mark("lights");
+        state_->clearPictures();
+        for (const auto& pass : current.frame) {
+            pass->run(view);
+            mark(pass->name());
+        }
+        if (current.accumulate) {
+            current.accumulate->run(view);
+            mark("accumulate");
+        }
+    }
+    if (current.data && current.plan.samples == 1) {
+        current.data->run(center);
+        mark("aov");
+    }
+    Picture picture;
+    picture.image = readPicture(current.plan, current.targets, center, options.aovs);
+    mark("readback");
+    gl::checkErrors("rendering");
+    if (options.timePasses)
+        for (const auto& [name, milliseconds] : timer.finish())
+            picture.passTimes.push_back({name, milliseconds});
+    picture.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return picture;
+}
+
+}  // namespace lobe

@@ -1,0 +1,64 @@
+#include "passes/screen_passes.hpp"
+
+#include "passes/material_glsl.hpp"
+
+namespace lobe {
+
+void CoveragePass::prepare() { program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {}); }
+
+void CoveragePass::run(const View&) {
+    glBindFramebuffer(GL_FRAMEBUFFER, targets().lighting("radiance"));
+    program_->use();
+    resources().inputs.setMask(nullptr);
+    resources().inputs.drawScreen(*program_);
+    resources().inputs.clearMask();
+}
+
+void AccumulatePass::prepare() { program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {}); }
+
+void AccumulatePass::run(const View&) {
+    program_->use();
+    program_->set("uWeight", 1.0f / static_cast<float>(plan().samples));
+    program_->set("uRadiance", 0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindSampler(0, 0);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    std::vector<std::string> pictures = {"radiance"};
+    for (const std::string& name : plan().contributionTargets)
+        pictures.push_back("contribution." + name);
+    for (const std::string& picture : pictures) {
+        glBindFramebuffer(GL_FRAMEBUFFER, targets().single("accumulated." + picture));
+        glBindTexture(GL_TEXTURE_2D, targets().texture(picture));
+        resources().inputs.drawScreen(*program_);
+    }
+    glDisable(GL_BLEND);
+}
+
+const gl::Program& AovPass::program(const Variant& variant) const {
+    return resources().programs.get("pass/screen.vert", planned_.program, variant.defines,
+                                    screenMaterialGlsl(plan(), *plan().brdf(variant.brdf)));
+}
+
+void AovPass::prepare() {
+    for (const Variant& variant : planned_.variants)
+        program(variant);
+}
+
+void AovPass::run(const View& view) {
+    glBindFramebuffer(GL_FRAMEBUFFER, targets().data());
+    const float zero[] = {0.0f, 0.0f, 0.0f, 0.0f};
+    for (size_t i = 0; i < plan().dataTargets.size(); ++i)
+        glClearBufferfv(GL_COLOR, static_cast<GLint>(i), zero);
+    for (const Variant& variant : planned_.variants) {
+        const PlannedBrdf& brdf = *plan().brdf(variant.brdf);
+        const gl::Program& shader = program(variant);
+        shader.use();
+        resources().inputs.bind(shader, targets(), view, brdf);
+        resources().inputs.setMask(&brdf);
+        resources().inputs.drawScreen(shader);
+    }
+    resources().inputs.clearMask();
+}
+
+}  // namespace lobe
