@@ -9,7 +9,7 @@ function(lobe_generate_glad out_dir)
       COMMAND ${LOBE_GLAD_PYTHON} -m glad --quiet --reproducible --out-path ${out_dir}
               --api gl:core=3.3
               --extensions GL_ARB_clip_control,GL_KHR_debug,GL_ARB_timer_query,GL_EXT_texture_filter_anisotropic,GL_ARB_texture_filter_anisotropic
-              c --mx
+              c
       RESULT_VARIABLE failed ERROR_VARIABLE why)
     if(failed)
       message(FATAL_ERROR "glad could not write the OpenGL loader (package python3-glad): ${why}")
