@@ -11,7 +11,4 @@ namespace lobe {
 /// Radiance and whatever else was asked for, as named channels, row 0 at the top.
 Image readPicture(const FramePlan& plan, const Targets& targets, const View& view, const AovSet& aovs);
 
-/// Capabilities of the context for planning.
-Capabilities capabilitiesOf(const gl::ContextInfo& info);
-
 }  // namespace lobe

@@ -33,6 +33,9 @@ struct RenderOptions {
     bool timePasses = false;  ///< costs a finish a pass on software drivers
 };
 
+/// What planning needs to know of a context.
+Capabilities capabilitiesOf(const gl::ContextInfo& info);
+
 /// One a context; reuses uploads and programs from picture to picture. Throws ShaderError, ContextError.
 class Renderer {
 public:

@@ -1,0 +1,215 @@
+// The plan as plain data: what a scene needs is kept, and what it does not need is left out, with a reason.
+#include "plan/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/scenes.hpp"
+
+namespace lobe {
+namespace {
+
+Capabilities modern() {
+    Capabilities capabilities;
+    capabilities.clipControl = true;
+    capabilities.maxTextureSize = 16384;
+    return capabilities;
+}
+
+Scene litQuad(const std::string& brdf = "lambert") {
+    Scene scene;
+    test::addInstance(scene, test::addQuad(scene, test::addMaterial(scene, brdf), 1.0f));
+    scene.lights.push_back(test::directional({0, 0, -1}, glm::dvec3(1.0)));
+    return scene;
+}
+
+FramePlan planOf(const Scene& scene, const Quality& quality = {}, const AovSet& aovs = {Aov::radiance}) {
+    return planFrame(summarise(scene), quality, modern(), aovs);
+}
+
+std::string reasonFor(const FramePlan& plan, const std::string& name) {
+    for (const LeftOut& leftOut : plan.leftOut)
+        if (leftOut.name == name) return leftOut.reason;
+    return {};
+}
+
+bool anyDefine(const FramePlan& plan, const std::string& key) {
+    for (const PlannedPass& pass : plan.passes)
+        for (const Variant& variant : pass.variants)
+            if (variant.defines.contains(key)) return true;
+    return false;
+}
+
+TEST(Plan, SmallestSceneHasNothingToSpare) {
+    const FramePlan plan = planOf(litQuad(), {.samples = 1});
+    EXPECT_THAT(plan.gbufferTargets, testing::ElementsAre("normal"));
+    EXPECT_EQ(plan.gbufferBytesPerPixel(), 8) << "depth and a packed normal";
+    ASSERT_EQ(plan.passes.size(), 3u);
+    EXPECT_EQ(plan.passes[0].name, "gbuffer");
+    EXPECT_EQ(plan.passes[1].name, "coverage");
+    EXPECT_EQ(plan.passes[2].name, "light.directional");
+    EXPECT_FALSE(plan.masked);
+}
+
+TEST(Plan, SceneWithoutSpotLightsHasNoSpotPassAndNoSpotProgram) {
+    Scene scene = litQuad();
+    EXPECT_EQ(planOf(scene).pass("light.spot"), nullptr);
+    EXPECT_EQ(reasonFor(planOf(scene), "light.spot"), "the scene has no spot light");
+    EXPECT_FALSE(anyDefine(planOf(scene), "SPOT_LIGHTS"));
+    scene.lights.push_back(test::spot({0, 0, 1}, {0, 0, 0}, glm::dvec3(1.0), 0.1, 0.2));
+    EXPECT_NE(planOf(scene).pass("light.spot"), nullptr);
+    EXPECT_TRUE(anyDefine(planOf(scene), "SPOT_LIGHTS"));
+}
+
+TEST(Plan, TangentsOnlyWithNormalMaps) {
+    Scene scene = litQuad();
+    EXPECT_FALSE(anyDefine(planOf(scene), "TANGENTS"));
+    EXPECT_FALSE(reasonFor(planOf(scene), "tangents").empty());
+    scene.materials[0].normalTexture.texture = test::addImage(scene, 1, 1, 3, [](int, int, int c) { return c == 2 ? 255 : 128; });
+    EXPECT_TRUE(anyDefine(planOf(scene), "TANGENTS"));
+    EXPECT_TRUE(reasonFor(planOf(scene), "tangents").empty());
+}
+
+TEST(Plan, RoughnessChannelOnlyWithTexturedRoughness) {
+    Scene scene = litQuad("metallic_roughness");
+    EXPECT_EQ(planOf(scene).channel("parameters0"), nullptr);
+    EXPECT_EQ(reasonFor(planOf(scene), "metallic_roughness.roughness"), "the same everywhere: a uniform");
+    const int texture = test::addImage(scene, 1, 1, 3, [](int, int, int) { return 128; });
+    const int roughness = requireBrdf("metallic_roughness").parameterIndex("roughness");
+    scene.materials[0].textures[static_cast<size_t>(roughness)].texture = texture;
+    const FramePlan plan = planOf(scene);
+    ASSERT_NE(plan.channel("parameters0"), nullptr);
+    EXPECT_EQ(plan.channel("parameters0")->format, "R16");
+    EXPECT_THAT(plan.channel("parameters0")->holds, testing::HasSubstr("roughness"));
+}
+
+TEST(Plan, MaterialChannelOnlyWhereMaterialsOfOneModelDiffer) {
+    Scene scene = litQuad();
+    const int other = test::addMaterial(scene, "lambert");
+    test::addInstance(scene, test::addQuad(scene, other, 0.5f));
+    EXPECT_EQ(planOf(scene).channel("material"), nullptr) << "both have the default values";
+    test::setParameter(scene.materials[static_cast<size_t>(other)], "diffuse", {0.2, 0.3, 0.4});
+    const FramePlan plan = planOf(scene);
+    ASSERT_NE(plan.channel("material"), nullptr);
+    EXPECT_EQ(plan.channel("material")->format, "R8UI");
+    EXPECT_THAT(plan.brdf("lambert")->perMaterial, testing::ElementsAre(0));
+}
+
+TEST(Plan, MaskOnlyWithSeveralModels) {
+    Scene scene = litQuad();
+    EXPECT_EQ(planOf(scene).channel("depth")->format, "DEPTH_COMPONENT32F");
+    test::addInstance(scene, test::addQuad(scene, test::addMaterial(scene, "phong"), 0.5f));
+    const FramePlan plan = planOf(scene);
+    EXPECT_TRUE(plan.masked);
+    EXPECT_EQ(plan.channel("depth")->format, "DEPTH32F_STENCIL8");
+    EXPECT_NE(plan.brdf("lambert")->stencil, plan.brdf("phong")->stencil);
+    EXPECT_EQ(plan.pass("light.directional")->variants.size(), 2u) << "one program a model";
+}
+
+TEST(Plan, WideNormalsForSharpLobes) {
+    Scene scene = litQuad("blinn_phong");
+    EXPECT_EQ(planOf(scene).channel("normal")->format, "RG16");
+    test::setParameter(scene.materials[0], "shininess", glm::dvec3(1e6));
+    EXPECT_EQ(planOf(scene).channel("normal")->format, "RG32F");
+}
+
+TEST(Plan, WithoutClipControlLinearDepthIsAChannel) {
+    Capabilities capabilities = modern();
+    capabilities.clipControl = false;
+    const FramePlan plan = planFrame(summarise(litQuad()), {}, capabilities);
+    EXPECT_FALSE(plan.reversedDepth);
+    EXPECT_NE(plan.channel("linear_z"), nullptr);
+    EXPECT_EQ(planOf(litQuad()).channel("linear_z"), nullptr);
+}
+
+TEST(Plan, EmissionAndAmbientShareTheGbufferPass) {
+    Scene scene = litQuad();
+    EXPECT_EQ(reasonFor(planOf(scene), "emission"), "no material emits");
+    EXPECT_NE(planOf(scene).pass("coverage"), nullptr);
+    scene.materials[0].emission = glm::vec3(1.0f);
+    const FramePlan plan = planOf(scene);
+    EXPECT_EQ(plan.gbufferTargets.back(), "radiance");
+    EXPECT_EQ(plan.pass("coverage"), nullptr) << "coverage is written with radiance";
+}
+
+TEST(Plan, OcclusionOnlyWhereAmbientLightCanReachIt) {
+    Scene scene = litQuad();
+    scene.materials[0].occlusionTexture.texture = test::addImage(scene, 1, 1, 1, [](int, int, int) { return 100; });
+    EXPECT_FALSE(anyDefine(planOf(scene), "OCCLUSION"));
+    EXPECT_EQ(reasonFor(planOf(scene), "images[0] image1"), "no material in use reads it");
+    scene.ambientRadiance = glm::dvec3(0.1);
+    EXPECT_TRUE(anyDefine(planOf(scene), "OCCLUSION"));
+}
+
+TEST(Plan, ClustersOnlyForManyRangedLights) {
+    Scene scene = litQuad();
+    for (int i = 0; i < 8; ++i)
+        scene.lights.push_back(test::point({i, 0, 1}, glm::dvec3(1.0), 2.0));
+    EXPECT_FALSE(planOf(scene).clusteredPoint);
+    scene.lights.push_back(test::point({8, 0, 1}, glm::dvec3(1.0), 2.0));
+    EXPECT_TRUE(planOf(scene).clusteredPoint);
+    EXPECT_EQ(planOf(scene).globalPointLights, 0);
+    scene.lights.push_back(test::point({9, 0, 1}, glm::dvec3(1.0)));
+    EXPECT_EQ(planOf(scene).globalPointLights, 1) << "a light without range reaches everything";
+    EXPECT_FALSE(planOf(scene, {.clusterFrom = 0}).clusteredPoint);
+}
+
+TEST(Plan, BlendedSurfacesAreForwardAndOthersAreNot) {
+    Scene scene = litQuad();
+    EXPECT_EQ(planOf(scene).pass("forward"), nullptr);
+    const int glass = test::addMaterial(scene, "lambert");
+    scene.materials[static_cast<size_t>(glass)].alphaMode = AlphaMode::blend;
+    test::addInstance(scene, test::addQuad(scene, glass, 0.5f));
+    const FramePlan plan = planOf(scene);
+    ASSERT_NE(plan.pass("forward"), nullptr);
+    EXPECT_EQ(plan.pass("forward")->variants.size(), 1u);
+    EXPECT_EQ(plan.pass("gbuffer")->variants.size(), 1u);
+    EXPECT_EQ(planOf(scene, {.shading = Shading::forward}).pass("gbuffer"), nullptr);
+}
+
+TEST(Plan, UnlitSceneHasNoLightPassAndNoNormals) {
+    Scene scene = litQuad(kUnlit);
+    const FramePlan plan = planOf(scene);
+    EXPECT_EQ(plan.pass("light.directional"), nullptr);
+    EXPECT_EQ(plan.channel("normal"), nullptr);
+    EXPECT_THAT(plan.gbufferTargets, testing::ElementsAre("radiance"));
+}
+
+TEST(Plan, OneSampleNeedsNoAccumulation) {
+    EXPECT_EQ(planOf(litQuad(), {.samples = 1}).pass("accumulate"), nullptr);
+    EXPECT_EQ(planOf(litQuad(), {.samples = 1}).channel("accumulated"), nullptr);
+    EXPECT_NE(planOf(litQuad(), {.samples = 4}).pass("accumulate"), nullptr);
+}
+
+TEST(Plan, TextAndJsonNameEveryPassChannelAndOmission) {
+    const FramePlan plan = planOf(litQuad("metallic_roughness"));
+    const std::string text = toText(plan);
+    const auto json = nlohmann::json::parse(toJson(plan));
+    EXPECT_EQ(json.at("schema"), 1);
+    EXPECT_EQ(json.at("passes").size(), plan.passes.size());
+    EXPECT_EQ(json.at("left_out").size(), plan.leftOut.size());
+    for (const PlannedPass& pass : plan.passes)
+        EXPECT_THAT(text, testing::HasSubstr(pass.name + ": " + pass.reason));
+    for (const Channel& channel : plan.channels)
+        EXPECT_THAT(text, testing::HasSubstr(channel.name + " " + channel.format));
+    for (const LeftOut& leftOut : plan.leftOut) {
+        EXPECT_THAT(text, testing::HasSubstr(leftOut.kind + " " + leftOut.name + ": " + leftOut.reason));
+        EXPECT_FALSE(leftOut.reason.empty());
+    }
+}
+
+TEST(Plan, EveryPresetIsKnownAndOthersAreRefusedWithTheNearest) {
+    for (const std::string& name : qualityPresetNames())
+        EXPECT_NO_THROW(qualityPreset(name));
+    try {
+        qualityPreset("balancd");
+        FAIL() << "expected a refusal";
+    } catch (const std::exception& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'balanced'"));
+    }
+}
+
+}  // namespace
+}  // namespace lobe
