@@ -1,5 +1,5 @@
 /// gbuffer.frag - stores what the lighting passes need of the nearest surface, and its emission and ambient light.
-#include "common/octahedral.glsl"
+#include "pass/gbuffer_normal.glsl"
 #include "pass/surface.glsl"
 
 #ifdef OUT_LINEAR_Z

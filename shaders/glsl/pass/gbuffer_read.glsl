@@ -1,5 +1,5 @@
 /// gbuffer_read.glsl - the surface behind a pixel, from the G-buffer.
-#include "common/octahedral.glsl"
+#include "pass/gbuffer_normal.glsl"
 
 uniform sampler2D uDepth;     // distance along the view axis where LINEAR_Z, else the reversed depth buffer
 uniform vec4 uDepthToZ;       // z = (x + y d) / (z + w d)

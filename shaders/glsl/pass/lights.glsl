@@ -105,7 +105,7 @@ vec3 spot_light(int i, LightReceiver r, MODEL_PARAMS params)
     vec4 intensity = texelFetch(uSpotLights, 3 * i + 1);
     vec4 axis = texelFetch(uSpotLights, 3 * i + 2);
     PunctualGeometry g = punctual_geometry(light.xyz - r.position, light.w);
-    float cone = spot_attenuation(-dot(axis.xyz, g.wi), intensity.w, axis.w);
+    float cone = spot_attenuation(axis.xyz, g.wi, intensity.w, axis.w);
     return intensity.xyz * (g.attenuation * cone * light_reflected(r, params, g.wi));
 }
 #endif

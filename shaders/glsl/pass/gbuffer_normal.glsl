@@ -1,0 +1,10 @@
+/// gbuffer_normal.glsl - the normal as the G-buffer stores it: 2x16 bits, or 2x32 where NORMAL_32F.
+#include "common/octahedral.glsl"
+
+#ifdef NORMAL_32F
+vec2 gbuffer_encode_normal(vec3 n) { return octahedral_encode(n); }
+vec3 gbuffer_decode_normal(vec2 stored) { return octahedral_decode(stored); }
+#else
+vec2 gbuffer_encode_normal(vec3 n) { return octahedral_encode_unorm16(n); }
+vec3 gbuffer_decode_normal(vec2 stored) { return octahedral_decode_unorm16(stored); }
+#endif
