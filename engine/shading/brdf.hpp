@@ -1,6 +1,6 @@
-/// The registry of reflectance models: each model's parameters, traits and double-precision twin, declared once, in
-/// its one file of engine/shading/brdf. The GLSL struct and its packing, the glTF reading, the G-buffer channels, the
-/// command line and the documentation are derived from what stands there.
+/// The registry of reflectance models: each model's parameters, traits and double-precision twin, declared
+/// once, in its one file of engine/shading/brdf. The GLSL struct and its packing, the glTF reading, the
+/// G-buffer channels, the command line and the documentation are derived from what stands there.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ namespace lobe {
 enum class ParameterKind : uint8_t { scalar, rgb, choice };
 
 struct Parameter {
-    std::string name;          ///< as in glTF (LOBE_materials_brdf), lowerCamelCase: "diffuse", "shininess"
-    std::string glslName;      ///< as in the GLSL struct, snake_case
+    std::string name;      ///< as in glTF (LOBE_materials_brdf), lowerCamelCase: "diffuse", "shininess"
+    std::string glslName;  ///< as in the GLSL struct, snake_case
     ParameterKind kind = ParameterKind::scalar;
     glm::dvec3 defaultValue{0.0};  ///< scalars and choices use .x
-    double minimum = 0.0;      ///< inclusive range, per channel
+    double minimum = 0.0;          ///< inclusive range, per channel
     double maximum = 1.0;
-    std::string unit;          ///< "1" for none
-    std::string description;   ///< one line
+    std::string unit = "1";            ///< "1" for none
+    std::string description;     ///< one line
     bool textureIsSrgb = false;  ///< colour-coded texture (diffuse, specular, base colour)
     bool mayBeTextured = true;
     std::vector<std::string> choices;  ///< for ParameterKind::choice
@@ -36,7 +36,8 @@ struct Parameter {
 /// A model's parameters in one flat array of doubles, in the order of Brdf::parameters, rgb as three.
 using ParameterValues = std::vector<double>;
 
-/// The glTF description of a surface, from which each model can be set up when it is chosen for a whole scene.
+/// The glTF description of a surface, from which each model can be set up when it is chosen for a whole
+/// scene.
 struct MetallicRoughness {
     glm::dvec3 baseColor{1.0};
     double metallic = 1.0;
@@ -49,25 +50,27 @@ struct Directions {
     glm::dvec3 wi;  ///< to the light
     glm::dvec3 wo;  ///< to the eye
     glm::dvec3 h;
-    Directions(const glm::dvec3& toLight, const glm::dvec3& toEye) : wi(toLight), wo(toEye), h(toLight + toEye) {}
+    Directions(const glm::dvec3& toLight, const glm::dvec3& toEye)
+        : wi(toLight), wo(toEye), h(toLight + toEye) {}
 };
 
 struct BrdfTraits {
     bool reciprocal = true;
-    bool energyConserving = true;   ///< directional albedo at most 1 over the whole parameter range
-    bool usesTangent = false;       ///< anisotropic: needs the frame's x axis
-    bool scattersLight = true;      ///< false: takes no light at all (unlit)
+    bool energyConserving = true;  ///< directional albedo at most 1 over the whole parameter range
+    bool usesTangent = false;      ///< anisotropic: needs the frame's x axis
+    bool scattersLight = true;     ///< false: takes no light at all (unlit)
 };
 
 /// One reflectance model.
 struct Brdf {
-    std::string name;         ///< registry name = GLSL file's stem = glTF "model"
-    std::string title;        ///< for people: "Blinn-Phong"
-    std::string source;       ///< paper
+    std::string name;    ///< registry name = GLSL file's stem = glTF "model"
+    std::string title;   ///< for people: "Blinn-Phong"
+    std::string source;  ///< paper
     std::vector<Parameter> parameters;
     BrdfTraits traits;
 
-    /// f_r(wi, wo) * cos(theta_i), in 1/sr, in double, from the paper's formula: the twin of NAME_f_cos in GLSL.
+    /// f_r(wi, wo) * cos(theta_i), in 1/sr, in double, from the paper's formula: the twin of NAME_f_cos in
+    /// GLSL.
     std::function<glm::dvec3(const Directions&, std::span<const double>)> fCos;
 
     /// The factor k_a that multiplies LOBE_ambient's radiance: the twin of NAME_ambient in GLSL.
@@ -80,7 +83,8 @@ struct Brdf {
     /// Values that imitate a metallic-roughness surface, for `--brdf NAME` on a whole scene.
     std::function<ParameterValues(const MetallicRoughness&)> fromMetallicRoughness;
 
-    /// The rgb parameter that takes the place of glTF's base colour, with its texture: "diffuse", "baseColor".
+    /// The rgb parameter that takes the place of glTF's base colour, with its texture: "diffuse",
+    /// "baseColor".
     std::string baseColorParameter;
 
     int parameterIndex(std::string_view parameterName) const;  ///< -1 if there is none

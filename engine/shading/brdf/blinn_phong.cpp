@@ -1,0 +1,52 @@
+/// Cosine power about the half vector: k_s (N.H)^n.
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "shading/phong_family.hpp"
+
+namespace lobe::brdf_entry {
+namespace {
+
+/// Makes the albedo of the lobe 1 at normal incidence: 1 / integral of (N.H)^n cos over the hemisphere.
+double energyConstant(double n) {
+    return (n + 2.0) * (n + 4.0) / (8.0 * glm::pi<double>() * (std::exp2(-n / 2.0) + n));
+}
+
+glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
+    using namespace shading;
+    if (!aboveSurface(d)) return glm::dvec3(0.0);
+    const PhongValues p = phongValues(values);
+    const double lobe = std::pow(glm::normalize(d.h).z, p.shininess);
+    if (!p.energy) return p.diffuse * d.wi.z + p.specular * lobe;
+    return (p.diffuse / glm::pi<double>() + p.specular * (energyConstant(p.shininess) * lobe)) * d.wi.z;
+}
+
+}  // namespace
+
+Brdf blinn_phong() {
+    using namespace shading;
+    Brdf brdf;
+    brdf.name = "blinn_phong";
+    brdf.title = "Blinn-Phong";
+    brdf.source =
+        "J. F. Blinn, Models of light reflection for computer synthesized pictures, SIGGRAPH 1977; energy: "
+        "the lobe "
+        "divided by its integral at normal incidence";
+    brdf.parameters = phongParameters();
+    // "classic" is neither; "energy" is reciprocal, and conserving where diffuse + specular <= 1.
+    brdf.traits.reciprocal = false;
+    brdf.traits.energyConserving = false;
+    brdf.baseColorParameter = "diffuse";
+    brdf.fCos = fCos;
+    brdf.ambient = phongAmbient;
+    brdf.lobeSharpness = [](std::span<const double> values) {
+        const PhongValues p = phongValues(values);
+        return p.specular == glm::dvec3(0.0) ? 0.0 : std::sqrt(p.shininess);
+    };
+    brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
+        return phongFromMetallicRoughness(surface, blinnExponent(surface.roughness));
+    };
+    return brdf;
+}
+
+}  // namespace lobe::brdf_entry

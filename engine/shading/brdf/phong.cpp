@@ -1,0 +1,54 @@
+/// Cosine power about the mirrored direction: k_s (R.V)^n.
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "shading/phong_family.hpp"
+
+namespace lobe::brdf_entry {
+namespace {
+
+glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
+    using namespace shading;
+    if (!aboveSurface(d)) return glm::dvec3(0.0);
+    const PhongValues p = phongValues(values);
+    const double pi = glm::pi<double>();
+    const glm::dvec3 normal(0.0, 0.0, 1.0);
+    const glm::dvec3 mirrored = 2.0 * d.wi.z * normal - d.wi;
+    const double lobe = std::pow(std::max(glm::dot(mirrored, d.wo), 0.0), p.shininess);
+    if (!p.energy) return p.diffuse * d.wi.z + p.specular * lobe;
+    return (p.diffuse / pi + p.specular * ((p.shininess + 2.0) / (2.0 * pi) * lobe)) * d.wi.z;
+}
+
+}  // namespace
+
+Brdf phong() {
+    using namespace shading;
+    Brdf brdf;
+    brdf.name = "phong";
+    brdf.title = "Phong";
+    brdf.source =
+        "B. T. Phong, Illumination for computer generated pictures, CACM 18(6), 1975; energy: E. P. "
+        "Lafortune and "
+        "Y. D. Willems, Using the modified Phong reflectance model for physically based rendering, CW 197, "
+        "1994";
+    brdf.parameters = phongParameters();
+    // "classic" is neither; "energy" is reciprocal, and conserving where diffuse + specular <= 1.
+    brdf.traits.reciprocal = false;
+    brdf.traits.energyConserving = false;
+    brdf.baseColorParameter = "diffuse";
+    brdf.fCos = fCos;
+    brdf.ambient = phongAmbient;
+    brdf.lobeSharpness = [](std::span<const double> values) {
+        const PhongValues p = phongValues(values);
+        return p.specular == glm::dvec3(0.0) ? 0.0 : 2.0 * std::sqrt(p.shininess);
+    };
+    // The reflected direction turns twice as fast as the half vector: a Phong exponent is a quarter of
+    // Blinn's.
+    brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
+        return phongFromMetallicRoughness(surface, blinnExponent(surface.roughness) / 4.0);
+    };
+    return brdf;
+}
+
+}  // namespace lobe::brdf_entry

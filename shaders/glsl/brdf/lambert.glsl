@@ -1,0 +1,22 @@
+/// lambert.glsl - ideal diffuse reflection. Registry name: lambert.
+///
+/// value  f_r cos(theta_i) in 1/sr, f_r = diffuse / pi
+/// frame  Dirs d: local, z = shading normal (common/dirs.glsl)
+/// params diffuse  0..1  per channel, no unit: reflectance k_d
+/// domain 0 unless d.wi.z > 0 and d.wo.z > 0
+/// source Lambert, Photometria, 1760
+/// stable one product
+/// error  relative < 2.4e-7
+/// twin   engine/shading/brdf/lambert.cpp
+#include "common/constants.glsl"
+#include "common/dirs.glsl"
+
+struct LambertParams { vec3 diffuse; };
+
+vec3 lambert_f_cos(Dirs d, LambertParams p)
+{
+    return d.wi.z > 0.0 && d.wo.z > 0.0 ? p.diffuse * (INV_PI * d.wi.z) : vec3(0.0);
+}
+
+vec3 lambert_ambient(LambertParams p) { return p.diffuse; }
+float lambert_roughness(LambertParams p) { return 1.0; }

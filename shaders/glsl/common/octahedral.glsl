@@ -1,0 +1,44 @@
+/// octahedral.glsl - unit vectors as points of a square.
+///
+/// value  the sphere is projected onto the octahedron |x| + |y| + |z| = 1, whose lower half is folded out
+/// domain any unit vector; decoding accepts the whole square
+/// source Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014
+/// stable 16-bit codes use 65535 of the 65536 steps, so that 0 is a code and the axes are exact
+/// error  32-bit float codes 3.2e-7 rad; 16-bit codes 6.4e-5 rad, 2.3e-5 on average (tests/shading/octahedral_test.cpp)
+
+/// Never sign(): it gives 0 at 0.
+vec2 octahedral_sign(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
+
+/// Into [-1, 1]^2.
+vec2 octahedral_encode(vec3 n)
+{
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * octahedral_sign(p);
+}
+
+vec3 octahedral_decode(vec2 p)
+{
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    n.xy -= octahedral_sign(p) * max(-n.z, 0.0);
+    return normalize(n);
+}
+
+/// Into [0, 1]^2, to be stored in RG16 (unsigned normalised).
+vec2 octahedral_encode_unorm16(vec3 n)
+{
+    return floor((octahedral_encode(n) * 0.5 + 0.5) * 65534.0 + 0.5) / 65535.0;
+}
+
+vec3 octahedral_decode_unorm16(vec2 stored)
+{
+    return octahedral_decode((floor(stored * 65535.0 + 0.5) - 32767.0) / 32767.0);
+}
+
+/// The G-buffer's normal channel: RG32F where the scene's sharpest lobe needs it (NORMAL_32F), else RG16.
+#ifdef NORMAL_32F
+vec2 gbuffer_encode_normal(vec3 n) { return octahedral_encode(n); }
+vec3 gbuffer_decode_normal(vec2 stored) { return octahedral_decode(stored); }
+#else
+vec2 gbuffer_encode_normal(vec3 n) { return octahedral_encode_unorm16(n); }
+vec3 gbuffer_decode_normal(vec2 stored) { return octahedral_decode_unorm16(stored); }
+#endif
