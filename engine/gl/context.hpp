@@ -39,7 +39,7 @@ struct ContextRequest {
     Backend backend = Backend::automatic;
     int device = -1;            ///< EGL device index; -1: any
     bool debug = false;         ///< report every GL error with its place; on in debug builds
-    std::vector<std::string> maskedExtensions;  ///< behave as if these were absent (tests)
+    std::vector<std::string> maskedExtensions = {};  ///< behave as if these were absent (tests)
 };
 
 /// A context that is current on the thread that made it. One thread at a time; release() before another thread, or
