@@ -33,12 +33,3 @@ vec3 octahedral_decode_unorm16(vec2 stored)
 {
     return octahedral_decode((floor(stored * 65535.0 + 0.5) - 32767.0) / 32767.0);
 }
-
-/// The G-buffer's normal channel: RG32F where the scene's sharpest lobe needs it (NORMAL_32F), else RG16.
-#ifdef NORMAL_32F
-vec2 gbuffer_encode_normal(vec3 n) { return octahedral_encode(n); }
-vec3 gbuffer_decode_normal(vec2 stored) { return octahedral_decode(stored); }
-#else
-vec2 gbuffer_encode_normal(vec3 n) { return octahedral_encode_unorm16(n); }
-vec3 gbuffer_decode_normal(vec2 stored) { return octahedral_decode_unorm16(stored); }
-#endif
