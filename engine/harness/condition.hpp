@@ -1,0 +1,23 @@
+/// How much the rounding of a model's inputs alone must change its value: the yardstick of every tolerance.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "shading/brdf.hpp"
+
+namespace lobe::harness {
+
+/// Condition numbers of f_r cos for each colour channel, by central differences on the twin; 0 where f is 0.
+struct Condition {
+    /// sum over the components x of both directions of |x df/dx| / f: what relative rounding of each
+    /// component costs. Small at grazing angles, where a float still holds the cosine to 24 bits.
+    glm::dvec3 componentwise{0.0};
+    /// (|grad_wi f| + |grad_wo f|) / f per radian: what rounding of directions in other axes costs.
+    glm::dvec3 angular{0.0};
+    /// sum over the parameters p of |p df/dp| / f.
+    glm::dvec3 parameters{0.0};
+};
+
+Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values);
+
+}  // namespace lobe::harness
