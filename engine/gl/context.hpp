@@ -38,7 +38,12 @@ struct Candidate {
 struct ContextRequest {
     Backend backend = Backend::automatic;
     int device = -1;            ///< EGL device index; -1: any
-    bool debug = false;         ///< report every GL error with its place; on in debug builds
+#ifdef NDEBUG
+    static constexpr bool kDebugByDefault = false;
+#else
+    static constexpr bool kDebugByDefault = true;
+#endif
+    bool debug = kDebugByDefault;  ///< report every GL error with its place; on in debug builds
     std::vector<std::string> maskedExtensions = {};  ///< behave as if these were absent (tests)
 };
 
