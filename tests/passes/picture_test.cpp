@@ -233,7 +233,8 @@ TEST(Picture, OrthographicCameraSeesParallelLines) {
             EXPECT_NEAR(deferred.pixel(x, y)[px], ((x + 0.5) / 96.0 - 0.5) * 6.0, 1e-5);
             EXPECT_NEAR(deferred.pixel(x, y)[px + 1], (0.5 - (y + 0.5) / 64.0) * 4.0, 1e-5);
         }
-    EXPECT_GT(seen, 1000);
+    // Four discs of radius 0.55 m in a window of 6 m x 4 m.
+    EXPECT_NEAR(seen, 4 * std::numbers::pi * 0.55 * 0.55 / 24.0 * 96 * 64, 40);
     const Image forward = render(scene, camera, smallPicture({.samples = 1, .gbufferBits = 32, .shading = Shading::forward}));
     for (int y = 0; y < deferred.height; ++y)
         for (int x = 0; x < deferred.width; ++x)
