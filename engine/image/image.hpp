@@ -9,7 +9,8 @@
 
 namespace lobe {
 
-/// Linear values, interleaved, row 0 at the top. Channel names follow OpenEXR: "R","G","B","A", "Z", "normal.X", ...
+/// Linear values, interleaved, row 0 at the top. Channel names follow OpenEXR: "R","G","B","A", "Z",
+/// "normal.X", ...
 struct Image {
     int width = 0;
     int height = 0;
@@ -30,12 +31,13 @@ struct Image {
 
 private:
     size_t offset(int x, int y) const {
-        return (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * channels.size();
+        return (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) *
+               channels.size();
     }
 };
 
-/// How many pixels have a NaN or infinity in any channel, told by exponent bits (isnan may be optimised away), and
-/// where the first of them is.
+/// How many pixels have a NaN or infinity in any channel, told by exponent bits (isnan may be optimised
+/// away), and where the first of them is.
 struct NonFinite {
     size_t pixels = 0;
     int firstX = -1;
@@ -44,7 +46,8 @@ struct NonFinite {
 };
 NonFinite countNonFinite(const Image& image);
 
-/// A decoded texture image: what a file held, not yet interpreted. Row 0 at the top; alpha never premultiplied.
+/// A decoded texture image: what a file held, not yet interpreted. Row 0 at the top; alpha never
+/// premultiplied.
 enum class ComponentType : uint8_t { u8, u16, f32 };
 struct Bitmap {
     int width = 0;
@@ -53,7 +56,9 @@ struct Bitmap {
     ComponentType type = ComponentType::u8;
     std::vector<std::byte> data;
 
-    size_t bytesPerComponent() const { return type == ComponentType::u8 ? 1 : type == ComponentType::u16 ? 2 : 4; }
+    size_t bytesPerComponent() const {
+        return type == ComponentType::u8 ? 1 : type == ComponentType::u16 ? 2 : 4;
+    }
 };
 
 }  // namespace lobe
