@@ -5,13 +5,18 @@
 #include <functional>
 
 #include "math/sphere.hpp"
+#include "math/ulp.hpp"
 
 namespace lobe::harness {
 namespace {
 
-/// |f(+step) - f(-step)| / (2 step f), channel by channel.
+/// A few roundings of a float. Differences are taken over this step rather than in the limit, so that the top
+/// of a narrow lobe, where the slope vanishes, counts with its curvature.
+constexpr double kStep = 4.0 * kFloatRounding;
+
+/// Larger of |f(+step) - f| and |f(-step) - f|, over step and f, channel by channel.
 glm::dvec3 relativeSlope(const std::function<glm::dvec3(double)>& f, double step, const glm::dvec3& centre) {
-    const glm::dvec3 difference = glm::abs(f(step) - f(-step)) / (2.0 * step);
+    const glm::dvec3 difference = glm::max(glm::abs(f(step) - centre), glm::abs(f(-step) - centre)) / step;
     glm::dvec3 slope(0.0);
     for (int c = 0; c < 3; ++c)
         if (centre[c] > 0.0) slope[c] = difference[c] / centre[c];
@@ -33,8 +38,6 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
     const glm::dvec3 f = brdf.fCos(d, values);
     if (f == glm::dvec3(0.0)) return condition;
 
-    // A thousandth of the narrowest lobe: the differences' own error is below 1e-5 of the slope.
-    const double step = 1e-3 / (10.0 + brdf.lobeSharpness(values));
     for (int k = 0; k < 3; ++k) {
         const auto scaled = [k](glm::dvec3 w, double by) {
             w[k] *= 1.0 + by;
@@ -44,16 +47,16 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
                                        [&](double by) {
                                            return brdf.fCos({scaled(d.wi, by), d.wo}, values);
                                        },
-                                       step, f) +
+                                       kStep, f) +
                                    relativeSlope(
                                        [&](double by) {
                                            return brdf.fCos({d.wi, scaled(d.wo, by)}, values);
                                        },
-                                       step, f);
+                                       kStep, f);
     }
 
     // Never across the horizon, where f is cut off.
-    const double angle = std::min(step, 0.1 * std::min(d.wi.z, d.wo.z));
+    const double angle = std::min(kStep, 0.1 * std::min(d.wi.z, d.wo.z));
     const glm::dmat3 atLight = frameAbout(d.wi);
     const glm::dmat3 atEye = frameAbout(d.wo);
     const auto light = [&](int axis) {
@@ -72,18 +75,28 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
     };
     condition.angular = gradientLength(light(0), light(1)) + gradientLength(eye(0), eye(1));
 
+    for (const glm::dvec3& w : {d.wi, d.wo})
+        condition.length += relativeSlope(
+            [&](double by) {
+                Directions stretched = d;
+                stretched.h += by * w;
+                return brdf.fCos(stretched, values);
+            },
+            kStep, f);
+
     size_t offset = 0;
     for (const Parameter& parameter : brdf.parameters) {
-        const bool continuous = parameter.kind != ParameterKind::choice;
         for (int c = 0; c < parameter.components(); ++c, ++offset) {
-            if (!continuous || values[offset] == 0.0) continue;
+            const double fromEnd =
+                std::min(values[offset] - parameter.minimum, parameter.maximum - values[offset]);
+            if (parameter.kind == ParameterKind::choice || fromEnd <= 0.0) continue;
             ParameterValues changed(values.begin(), values.end());
             condition.parameters += relativeSlope(
                 [&](double by) {
-                    changed[offset] = values[offset] * (1.0 + by);
+                    changed[offset] = values[offset] + by * fromEnd;
                     return brdf.fCos(d, changed);
                 },
-                1e-6, f);
+                kStep, f);
         }
     }
     return condition;

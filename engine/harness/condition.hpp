@@ -7,14 +7,20 @@
 
 namespace lobe::harness {
 
-/// Condition numbers of f_r cos for each colour channel, by central differences on the twin; 0 where f is 0.
+/// Condition numbers of f_r cos for each colour channel, by differences over four float
+/// roundings on the twin; 0 where f is 0.
 struct Condition {
     /// sum over the components x of both directions of |x df/dx| / f: what relative rounding of each
     /// component costs. Small at grazing angles, where a float still holds the cosine to 24 bits.
     glm::dvec3 componentwise{0.0};
     /// (|grad_wi f| + |grad_wo f|) / f per radian: what rounding of directions in other axes costs.
     glm::dvec3 angular{0.0};
-    /// sum over the parameters p of |p df/dp| / f.
+    /// sum over both directions of |df/de| / f, e the departure of its length from 1, of which the half
+    /// vector takes part: what unit vectors that are unit only to float rounding cost. Large only where L is
+    /// near -V.
+    glm::dvec3 length{0.0};
+    /// sum over the parameters p of |q df/dp| / f, q the distance of p from the nearer end of its range: 1 -
+    /// p is exact in floats where p is near 1.
     glm::dvec3 parameters{0.0};
 };
 

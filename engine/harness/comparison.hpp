@@ -1,0 +1,54 @@
+/// A model's GLSL against its double-precision twin, row by row.
+///
+/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp), plus
+/// what the driver's exp and log are known to be off by. Rows whose allowance exceeds 10 % say nothing about
+/// the formula and only have to be finite and not negative; rows below 1e-38 have to stay below 1e-30.
+#pragma once
+
+#include <string>
+
+#include "harness/brdf_table.hpp"
+#include "harness/condition.hpp"
+
+namespace lobe::harness {
+
+/// How the rows' directions reached the GLSL.
+enum class Axes {
+    local,  ///< as components in the local frame: rounding is relative in each
+    world   ///< in other axes: rounding turns them
+};
+
+/// Keeps the worst error of a table in units of 2^-24 (4 + c).
+class Comparison {
+public:
+    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) {}
+
+    /// False if the row fails; message() then says where, with both values and the tolerance. `d` are the
+    /// row's directions in the local frame, in double.
+    bool check(const BrdfRow& row, const Directions& d, const glm::vec3& got);
+
+    const std::string& message() const { return message_; }
+    size_t count() const { return count_; }
+    double worst() const { return worst_; }  ///< of 16
+    double illConditionedShare() const {
+        return static_cast<double>(illConditioned_) / static_cast<double>(count_);
+    }
+    std::string report() const;
+
+private:
+    bool fail(const BrdfRow& row, int channel, double value, const std::string& expected);
+
+    const Brdf& brdf_;
+    Axes axes_;
+    std::string message_;
+    size_t count_ = 0;
+    size_t illConditioned_ = 0;
+    double worst_ = 0.0;
+    double worstRelative_ = 0.0;
+    std::string worstRow_;
+};
+
+/// A row with all digits, for messages.
+std::string describe(const BrdfRow& row);
+
+}  // namespace lobe::harness

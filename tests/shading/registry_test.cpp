@@ -1,0 +1,198 @@
+/// What the registry promises: names, ranges, messages, and GLSL files that say the same as the C++ entries.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <regex>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/resources.hpp"
+#include "gl/context.hpp"
+#include "shading/brdf.hpp"
+
+namespace lobe {
+namespace {
+
+std::string readText(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string glslText(const Brdf& brdf) {
+    return readText(shaderDirectory() / "brdf" / (brdf.name + ".glsl"));
+}
+
+std::string oneSpaced(const std::string& text) {
+    return std::regex_replace(text, std::regex("\\s+"), " ");
+}
+
+/// The numbers as the headers write them: 0..1, 0..1e6.
+std::string rangeText(const Parameter& parameter) {
+    const auto number = [](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, value >= 1e5 ? "%.0e" : "%g", value);
+        return std::regex_replace(std::string(text), std::regex("e\\+0*"), "e");
+    };
+    return number(parameter.minimum) + ".." + number(parameter.maximum);
+}
+
+std::string messageOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Registry, HoldsTheModelsSortedByName) {
+    const std::vector<std::string> names = brdfNames();
+    EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+    EXPECT_THAT(names, testing::IsSupersetOf({"lambert", "phong", "blinn_phong", "metallic_roughness"}));
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+    for (const std::string& name : names)
+        EXPECT_EQ(requireBrdf(name).name, name);
+}
+
+TEST(Registry, NamesTheNearestModel) {
+    EXPECT_EQ(findBrdf("lamberd"), nullptr);
+    EXPECT_THAT(messageOf([] { requireBrdf("lamberd"); }),
+                testing::AllOf(testing::HasSubstr("'lamberd'"), testing::HasSubstr("did you mean 'lambert'?"),
+                               testing::HasSubstr("blinn_phong")));
+    EXPECT_THROW(requireBrdf(""), UsageError);
+}
+
+TEST(Registry, EveryEntryIsComplete) {
+    for (const Brdf& brdf : allBrdfs()) {
+        SCOPED_TRACE(brdf.name);
+        EXPECT_FALSE(brdf.title.empty());
+        EXPECT_FALSE(brdf.source.empty());
+        EXPECT_TRUE(brdf.fCos && brdf.ambient && brdf.lobeSharpness && brdf.fromMetallicRoughness);
+        const int base = brdf.parameterIndex(brdf.baseColorParameter);
+        ASSERT_GE(base, 0);
+        EXPECT_EQ(brdf.parameters[static_cast<size_t>(base)].kind, ParameterKind::rgb);
+        std::set<std::string> names;
+        for (const Parameter& parameter : brdf.parameters) {
+            EXPECT_TRUE(names.insert(parameter.glslName).second) << parameter.glslName;
+            EXPECT_TRUE(std::regex_match(parameter.name, std::regex("[a-z][a-zA-Z0-9]*"))) << parameter.name;
+            EXPECT_TRUE(std::regex_match(parameter.glslName, std::regex("[a-z][a-z0-9_]*")))
+                << parameter.glslName;
+            EXPECT_LT(parameter.minimum, parameter.maximum);
+            EXPECT_FALSE(parameter.description.empty());
+            EXPECT_EQ(parameter.kind == ParameterKind::choice, !parameter.choices.empty());
+            EXPECT_FALSE(parameter.kind == ParameterKind::choice && parameter.mayBeTextured);
+        }
+        EXPECT_EQ(brdf.defaults().size(), static_cast<size_t>(brdf.valueCount()));
+        EXPECT_NO_THROW(validateParameters(brdf, brdf.defaults(), "defaults"));
+    }
+}
+
+TEST(Registry, ParametersOfTheSceneFormat) {
+    const Brdf& phong = requireBrdf("phong");
+    EXPECT_EQ(phong.defaults(), (ParameterValues{0, 0, 0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 32, 0}));
+    EXPECT_EQ(requireBrdf("blinn_phong").defaults(), phong.defaults());
+    EXPECT_EQ(phong.parameters[4].choices, (std::vector<std::string>{"classic", "energy"}));
+    EXPECT_EQ(phong.valueOffset(phong.parameterIndex("shininess")), 9);
+    EXPECT_EQ(phong.parameterIndex("shinyness"), -1);
+    for (const char* color : {"diffuse", "specular"})
+        EXPECT_TRUE(phong.parameters[static_cast<size_t>(phong.parameterIndex(color))].textureIsSrgb);
+    EXPECT_FALSE(phong.parameters[static_cast<size_t>(phong.parameterIndex("ambient"))].textureIsSrgb);
+    EXPECT_EQ(requireBrdf("lambert").defaults(), (ParameterValues{1, 1, 1}));
+}
+
+TEST(ValidateParameters, SaysWhatIsWrongInOneLine) {
+    const Brdf& phong = requireBrdf("phong");
+    const auto message = [&](size_t offset, double value) {
+        ParameterValues values = phong.defaults();
+        values[offset] = value;
+        return messageOf([&] { validateParameters(phong, values, "room.gltf: material 'wall'"); });
+    };
+    EXPECT_EQ(message(9, -1.0), "room.gltf: material 'wall': shininess: -1; expected 0..1000000");
+    EXPECT_EQ(message(4, 1.5), "room.gltf: material 'wall': diffuse[1]: 1.5; expected 0..1");
+    EXPECT_EQ(message(10, 0.5),
+              "room.gltf: material 'wall': normalization: 0.5; expected \"classic\" or \"energy\"");
+    EXPECT_EQ(message(10, 2.0),
+              "room.gltf: material 'wall': normalization: 2; expected \"classic\" or \"energy\"");
+    EXPECT_EQ(message(0, std::nan("")), "room.gltf: material 'wall': ambient[0]: NaN; expected 0..1");
+    EXPECT_EQ(message(9, std::numeric_limits<double>::infinity()),
+              "room.gltf: material 'wall': shininess: infinity; expected 0..1000000");
+    EXPECT_EQ(message(9, 1e6), "no error");
+    EXPECT_EQ(message(9, 0.0), "no error");
+    EXPECT_THROW(validateParameters(phong, ParameterValues{1.0}, "x"), InputError);
+}
+
+TEST(GlslFiles, DeclareTheStructOfTheRegistry) {
+    EXPECT_EQ(glslParameterStruct(requireBrdf("lambert")), "struct LambertParams { vec3 diffuse; };");
+    for (const Brdf& brdf : allBrdfs())
+        EXPECT_THAT(oneSpaced(glslText(brdf)), testing::HasSubstr(glslParameterStruct(brdf))) << brdf.name;
+}
+
+TEST(GlslFiles, OneForEachEntryAndNoOther) {
+    std::vector<std::string> stems;
+    for (const auto& file : std::filesystem::directory_iterator(shaderDirectory() / "brdf"))
+        stems.push_back(file.path().stem());
+    EXPECT_THAT(stems, testing::UnorderedElementsAreArray(brdfNames()));
+}
+
+TEST(GlslFiles, HeadersHaveEveryKeyAndTheRegistrysRanges) {
+    for (const Brdf& brdf : allBrdfs()) {
+        SCOPED_TRACE(brdf.name);
+        const std::string text = glslText(brdf);
+        EXPECT_TRUE(text.starts_with("/// " + brdf.name + ".glsl - "));
+        EXPECT_THAT(text, testing::HasSubstr("Registry name: " + brdf.name + "."));
+        for (const char* key : {"value", "frame", "params", "domain", "source", "stable", "error", "twin"})
+            EXPECT_TRUE(std::regex_search(text, std::regex("\n/// " + std::string(key) + " +\\S"))) << key;
+        for (const Parameter& parameter : brdf.parameters) {
+            std::string line = "\n/// (params)? +" + parameter.glslName + " +";
+            if (parameter.kind == ParameterKind::choice)
+                for (size_t i = 0; i < parameter.choices.size(); ++i)
+                    line += (i > 0 ? ", " : "") + std::to_string(i) + " " + parameter.choices[i];
+            else
+                line += std::regex_replace(rangeText(parameter), std::regex("\\."), "\\.") + " ";
+            EXPECT_TRUE(std::regex_search(text, std::regex(line))) << line;
+        }
+        const std::string twin = "engine/shading/brdf/" + brdf.name + ".cpp";
+        EXPECT_THAT(text, testing::HasSubstr("/// twin   " + twin));
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(LOBE_SOURCE_DIR) / twin));
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(LOBE_SOURCE_DIR) / "docs/models" /
+                                            (brdf.name + ".md")));
+    }
+}
+
+TEST(Imitation, GivesValidValuesForEveryGltfSurface) {
+    for (const Brdf& brdf : allBrdfs())
+        for (double base : {0.0, 0.5, 1.0})
+            for (double metallic : {0.0, 0.3, 1.0})
+                for (double roughness : {0.0, 1e-3, 0.5, 0.97, 1.0}) {
+                    const ParameterValues values =
+                        brdf.fromMetallicRoughness({glm::dvec3(base), metallic, roughness});
+                    EXPECT_NO_THROW(validateParameters(brdf, values, brdf.name));
+                }
+}
+
+TEST(Imitation, PhongKeepsDiffuseAndSpecularWithinOne) {
+    for (const char* name : {"phong", "blinn_phong"})
+        for (double base : {0.0, 0.5, 1.0})
+            for (double metallic : {0.0, 0.3, 1.0}) {
+                const ParameterValues v =
+                    requireBrdf(name).fromMetallicRoughness({glm::dvec3(base), metallic, 0.5});
+                EXPECT_LE(v[3] + v[6], 1.0 + 1e-15);
+                EXPECT_EQ(v[0], base);
+                EXPECT_EQ(v[10], 1.0);
+            }
+    // Blinn's n = 2 / alpha^2 - 2 with alpha = 0.25; Phong's is a quarter.
+    EXPECT_DOUBLE_EQ(requireBrdf("blinn_phong").fromMetallicRoughness({glm::dvec3(1.0), 0.0, 0.5})[9], 30.0);
+    EXPECT_DOUBLE_EQ(requireBrdf("phong").fromMetallicRoughness({glm::dvec3(1.0), 0.0, 0.5})[9], 7.5);
+    EXPECT_DOUBLE_EQ(requireBrdf("phong").fromMetallicRoughness({glm::dvec3(1.0), 0.0, 0.0})[9], 1e6);
+}
+
+TEST(Backends, AtLeastOneMakesAContext) {
+    EXPECT_NO_THROW(gl::Context::create());
+}
+
+}  // namespace
+}  // namespace lobe
