@@ -1,1 +1,6 @@
-int main() { return 0; }
+/// Reads scenes for other programs (engine/scene/load.hpp).
+#include "import/import.hpp"
+
+int main() {
+    return lobe::serveWorker(lobe::serveImport);
+}

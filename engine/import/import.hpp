@@ -1,5 +1,5 @@
-/// glTF 2.0 to Scene through tinygltf, in this process. Only the scene worker and tests call this; everybody else
-/// goes through scene/load.hpp.
+/// glTF 2.0 to Scene through tinygltf, in this process. Only the scene worker and tests call this; everybody
+/// else goes through scene/load.hpp.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@ namespace lobe {
 
 /// An image that the scene refers to, still encoded.
 struct EncodedImage {
-    std::string name;               ///< for messages: "images[2] (albedo.png)"
+    std::string name;  ///< for messages: "images[2] (albedo.png)"
     std::vector<std::byte> bytes;
-    int fallback = -1;              ///< index of another EncodedImage to take if this one can't be decoded
+    int fallback = -1;  ///< index of another EncodedImage to take if this one can't be decoded
 };
 
 struct Imported {
-    Scene scene;                       ///< images empty; Texture::image indexes `images`
+    Scene scene;  ///< images empty; Texture::image indexes `images`
     std::vector<EncodedImage> images;
 };
 

@@ -17,13 +17,13 @@ enum class NormalsMode : uint8_t {
 };
 
 struct LoadOptions {
-    double time = 0.0;        ///< seconds; all animations are posed at it (clamped to each one's end)
+    double time = 0.0;  ///< seconds; all animations are posed at it (clamped to each one's end)
     NormalsMode normals = NormalsMode::asFile;
 };
 
 /// Reads, validates and poses a scene. The file is parsed in lobe-scene-worker and its images are decoded in
-/// lobe-image-worker, so no file can crash, hang or bloat the caller. Throws InputError that names file, property,
-/// value and expectation. A scene object may be used for many loads; one thread at a time.
+/// lobe-image-worker, so no file can crash, hang or bloat the caller. Throws InputError that names file,
+/// property, value and expectation. A scene object may be used for many loads; one thread at a time.
 class SceneLoader {
 public:
     SceneLoader();

@@ -1,4 +1,5 @@
-/// A scene as bytes, for the way from the scene worker to the program. Not a file format: no version, same build only.
+/// A scene as bytes, for the way from the scene worker to the program. Not a file format: no version, same
+/// build only.
 #pragma once
 
 #include <cstddef>

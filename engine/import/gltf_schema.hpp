@@ -1,0 +1,13 @@
+/// The parts of glTF 2.0 and its extensions that Lobe reads, as a schema.
+#pragma once
+
+#include "import/json_schema.hpp"
+
+namespace lobe {
+
+const ObjectSchema& gltfSchema();
+
+/// KHR_lights_punctual's root object: its lights are indexed by nodes, which gltfSchema() can't check.
+inline constexpr const char* kLightsExtension = "KHR_lights_punctual";
+
+}  // namespace lobe

@@ -1,0 +1,268 @@
+#include "import/import.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "import/accessors.hpp"
+#include "import/animation.hpp"
+#include "import/lights_cameras.hpp"
+#include "import/materials.hpp"
+#include "import/normals.hpp"
+#include "import/refuse.hpp"
+#include "import/skin.hpp"
+#include "import/source_mesh.hpp"
+#include "import/tangents.hpp"
+#include "import/textures.hpp"
+
+namespace lobe {
+
+namespace {
+
+constexpr size_t kMostInstances = size_t{1} << 22;  // a small file can ask for very many by sharing meshes
+
+/// glTF's texture transform: scale, then rotate, then move.
+glm::vec2 transformed(const glm::vec2& uv, const TextureSlot& slot) {
+    const glm::dvec2 scaled = glm::dvec2(uv) * glm::dvec2(slot.scale);
+    const double c = std::cos(double{slot.rotation});
+    const double s = std::sin(double{slot.rotation});
+    return glm::vec2(glm::dvec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y) +
+                     glm::dvec2(slot.offset));
+}
+
+class Importer {
+public:
+    Importer(const std::filesystem::path& file, const LoadOptions& options)
+        : options_(options), document_(openDocument(file)) {}
+
+    Imported import() {
+        Scene& scene = result_.scene;
+        scene.file = document_.file;
+        scene.name = std::filesystem::path(document_.file).stem().string();
+        materials_ = readMaterials(document_);
+        tree_ = readNodeTree(document_);
+        pose_ = readRestPose(document_);
+        scene.animationDurations = animate(document_, options_.time, pose_);
+        world_ = worldPose(document_, tree_, pose_);
+        for (const int node : tree_.drawn) {
+            addNode(static_cast<size_t>(node));
+        }
+        addTextures();
+        scene.lights = readLights(document_, tree_, world_);
+        scene.cameras = readCameras(document_, tree_, world_);
+        readAmbient();
+        warnOfRepairs();
+        scene.contentHash = document_.hash.hex();
+        scene.warnings = std::move(document_.warnings);
+        return std::move(result_);
+    }
+
+private:
+    void addNode(size_t node) {
+        const tinygltf::Node& source = document_.model.nodes[node];
+        if (source.mesh < 0) {
+            return;
+        }
+        const auto mesh = static_cast<size_t>(source.mesh);
+        const size_t count = document_.model.meshes[mesh].primitives.size();
+        checkTargets(mesh);
+        std::vector<glm::dmat4> joints;
+        if (source.skin >= 0) {
+            joints = jointTransforms(document_, static_cast<size_t>(source.skin), world_);
+        }
+        for (size_t p = 0; p < count; ++p) {
+            const int primitive = primitiveOf(node, mesh, p, joints);
+            if (primitive < 0) {
+                continue;
+            }
+            if (result_.scene.instances.size() >= kMostInstances) {
+                refuse(document_.file, "nodes",
+                       "more than " + std::to_string(kMostInstances) + " drawn primitives", "fewer");
+            }
+            // Skinned vertices are in world space already; glTF ignores the node's own transform.
+            result_.scene.instances.push_back({primitive,
+                                               joints.empty() ? world_.transforms[node] : glm::dmat4(1.0),
+                                               source.name.empty() ? at("nodes", node) : source.name});
+        }
+    }
+
+    void checkTargets(size_t mesh) const {
+        const auto& primitives = document_.model.meshes[mesh].primitives;
+        for (size_t p = 1; p < primitives.size(); ++p) {
+            if (primitives[p].targets.size() != primitives[0].targets.size()) {
+                refuse(
+                    document_.file, at("meshes", mesh, at("primitives", p)) + ".targets",
+                    std::to_string(primitives[p].targets.size()) + " targets",
+                    "as many as the mesh's first primitive, " + std::to_string(primitives[0].targets.size()));
+            }
+        }
+    }
+
+    /// The scene's primitive, shared by nodes that show it in the same shape; -1 if it is not drawn.
+    int primitiveOf(size_t node, size_t mesh, size_t primitive, const std::vector<glm::dmat4>& joints) {
+        const std::vector<double>& own = pose_[node].weights;
+        const std::vector<double>& weights = own.empty() ? document_.model.meshes[mesh].weights : own;
+        const bool shared = joints.empty() && own.empty();
+        const std::pair key{mesh, primitive};
+        if (shared) {
+            if (const auto known = shared_.find(key); known != shared_.end()) {
+                return known->second;
+            }
+        }
+        const int index = addPrimitive(mesh, primitive, weights, joints);
+        if (shared) {
+            shared_.emplace(key, index);
+        }
+        return index;
+    }
+
+    int addPrimitive(size_t mesh, size_t primitive, const std::vector<double>& weights,
+                     const std::vector<glm::dmat4>& joints) {
+        std::optional<SourceMesh> source = readSourceMesh(document_, mesh, primitive, weights);
+        if (!source) {
+            return -1;
+        }
+        const std::string property = at("meshes", mesh, at("primitives", primitive));
+        const tinygltf::Mesh& gltfMesh = document_.model.meshes[mesh];
+        if (!joints.empty()) {
+            applySkin(*source, joints, document_, property);
+        }
+        Primitive& result = source->primitive;
+        const size_t count = result.positions.size() * 3;
+        const size_t bad = firstNonFinite(&result.positions[0].x, count);
+        if (bad < count) {
+            refuse(document_.file, property + ", vertex " + std::to_string(bad / 3),
+                   "its posed place is not finite", "finite weights and joint transforms");
+        }
+        result.name = gltfMesh.name.empty() ? property : gltfMesh.name;
+        result.material = materialOf(gltfMesh.primitives[primitive].material);
+        finishNormals(result);
+        finishUvs(result, property);
+        finishTangents(result);
+        result_.scene.primitives.push_back(std::move(result));
+        return static_cast<int>(result_.scene.primitives.size()) - 1;
+    }
+
+    int materialOf(int gltfMaterial) {
+        const auto known = materialIndex_.find(gltfMaterial);
+        if (known != materialIndex_.end()) {
+            return known->second;
+        }
+        auto& materials = result_.scene.materials;
+        materials.push_back(gltfMaterial < 0 ? defaultMaterial()
+                                             : materials_[static_cast<size_t>(gltfMaterial)]);
+        const int index = static_cast<int>(materials.size()) - 1;
+        materialIndex_.emplace(gltfMaterial, index);
+        return index;
+    }
+
+    void finishNormals(Primitive& primitive) {
+        if (options_.normals == NormalsMode::flat || primitive.normals.empty()) {
+            // glTF: without normals the file's tangents are not to be used.
+            primitive.tangents.clear();
+            if (options_.normals == NormalsMode::smooth) {
+                makeSmoothNormals(primitive);
+            } else {
+                makeFlatNormals(primitive);
+            }
+        } else {
+            repairedNormals_ += repairNormals(primitive);
+        }
+    }
+
+    /// Texture coordinates that the material needs and the primitive lacks are zero, as if there were one
+    /// texel.
+    void finishUvs(Primitive& primitive, const std::string& property) {
+        Material& material = result_.scene.materials[static_cast<size_t>(primitive.material)];
+        for (const TextureSlot* slot : textureSlots(material)) {
+            std::vector<glm::vec2>& uvs = primitive.uvs[static_cast<size_t>(slot->uvSet)];
+            if (uvs.empty()) {
+                uvs.assign(primitive.positions.size(), glm::vec2(0.0f));
+                document_.warn(property + ".attributes", "has no TEXCOORD_" + std::to_string(slot->uvSet) +
+                                                             ", which its material uses; taken as 0, 0");
+            }
+        }
+    }
+
+    void finishTangents(Primitive& primitive) {
+        const Material& material = result_.scene.materials[static_cast<size_t>(primitive.material)];
+        const Brdf* brdf = findBrdf(material.brdf);
+        if (!material.normalTexture && (brdf == nullptr || !brdf->traits.usesTangent)) {
+            primitive.tangents.clear();
+            return;
+        }
+        if (!primitive.tangents.empty()) {
+            repairedTangents_ += repairTangents(primitive);
+            return;
+        }
+        const std::vector<glm::vec2>& own = primitive.uvs[static_cast<size_t>(material.normalTexture.uvSet)];
+        std::vector<glm::vec2> uvs =
+            own.empty() ? std::vector(primitive.positions.size(), glm::vec2(0.0f)) : own;
+        if (material.normalTexture.transformed()) {
+            std::transform(uvs.begin(), uvs.end(), uvs.begin(),
+                           [&](const glm::vec2& uv) { return transformed(uv, material.normalTexture); });
+        }
+        makeTangents(primitive, uvs);
+    }
+
+    /// Materials have indices into the file's textures until here; only those that are drawn are read.
+    void addTextures() {
+        TextureTable table(document_);
+        for (Material& material : result_.scene.materials) {
+            for (TextureSlot* slot : textureSlots(material)) {
+                slot->texture = table.use(slot->texture);
+            }
+        }
+        result_.scene.textures = std::move(table.textures);
+        for (const EncodedImage& image : table.images) {
+            result_.scene.imageNames.push_back(image.name);
+        }
+        result_.images = std::move(table.images);
+    }
+
+    void readAmbient() {
+        const auto scene = shownScene(document_);
+        const nlohmann::json* ambient =
+            scene ? document_.extension("scenes", *scene, "LOBE_ambient") : nullptr;
+        if (ambient != nullptr && ambient->contains("radiance")) {
+            const nlohmann::json& rgb = (*ambient)["radiance"];
+            result_.scene.ambientRadiance = {rgb[0].get<double>(), rgb[1].get<double>(),
+                                             rgb[2].get<double>()};
+        }
+    }
+
+    void warnOfRepairs() {
+        if (repairedNormals_ > 0) {
+            document_.warn("meshes",
+                           std::to_string(repairedNormals_) +
+                               " normals are zero or not finite; replaced by those of the facets around");
+        }
+        if (repairedTangents_ > 0) {
+            document_.warn("meshes",
+                           std::to_string(repairedTangents_) +
+                               " tangents are zero, not finite or parallel to the normal; replaced");
+        }
+        if (result_.scene.instances.empty()) {
+            document_.warn("scene", "has nothing to draw");
+        }
+    }
+
+    LoadOptions options_;
+    Document document_;
+    Imported result_;
+    std::vector<Material> materials_;
+    NodeTree tree_;
+    std::vector<NodePose> pose_;
+    WorldPose world_;
+    std::map<int, int> materialIndex_;
+    std::map<std::pair<size_t, size_t>, int> shared_;
+    size_t repairedNormals_ = 0;
+    size_t repairedTangents_ = 0;
+};
+
+}  // namespace
+
+Imported importGltf(const std::filesystem::path& file, const LoadOptions& options) {
+    return Importer(file, options).import();
+}
+
+}  // namespace lobe

@@ -1,0 +1,36 @@
+/// Textures and images, read only as far as materials use them.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "import/document.hpp"
+#include "import/import.hpp"
+
+namespace lobe {
+
+/// Collects the textures that the scene's materials refer to, in the order in which they do.
+class TextureTable {
+public:
+    explicit TextureTable(Document& document) : document_(document) {}
+
+    /// The scene's index of a glTF texture, or -1 (with a warning) if it has no image. Throws InputError if
+    /// the image can't be read.
+    int use(int gltfTexture);
+
+    std::vector<Texture> textures;
+    std::vector<EncodedImage> images;
+
+private:
+    int addImage(int gltfImage, int fallback);
+    Sampler sampler(int gltfSampler) const;
+
+    Document& document_;
+    std::map<int, int> textureIndex_;
+    std::map<int, int> imageIndex_;
+};
+
+/// "images[2] (albedo.png)".
+std::string imageName(const Document& document, size_t image);
+
+}  // namespace lobe
