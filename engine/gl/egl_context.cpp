@@ -160,7 +160,7 @@ std::unique_ptr<Context> makeEglDeviceContext(const ContextRequest& request, int
     const std::vector<EGLDeviceEXT> handles = deviceHandles();
     if (index < 0 || static_cast<size_t>(index) >= handles.size()) throw ContextError("no such EGL device");
     return std::make_unique<EglContext>(request, platformDisplay(EGL_PLATFORM_DEVICE_EXT, handles[static_cast<size_t>(index)]),
-                                        Surface::none, "device " + std::to_string(index));
+                                        Surface::none, "device " + std::to_string(index) + " (" + eglDevices()[static_cast<size_t>(index)].name + ")");
 }
 
 std::unique_ptr<Context> makeEglSurfacelessContext(const ContextRequest& request) {
