@@ -61,27 +61,34 @@ double integratePanels(const std::function<double(double)>& f, std::span<const d
     return sum;
 }
 
-double integrateSphere(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& axis,
-                       std::span<const double> polarBreaks, int azimuthPanels, const QuadratureRule& rule) {
+std::vector<double> gradedBreaks(double first, double last, int count) {
+    std::vector<double> breaks{0.0};
+    for (int i = 0; i < count; ++i)
+        breaks.push_back(first * std::pow(last / first, static_cast<double>(i) / (count - 1)));
+    breaks.back() = last;
+    return breaks;
+}
+
+double integrateHemisphere(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& axis,
+                           std::span<const double> polarBreaks, int azimuthPanels,
+                           const QuadratureRule& rule) {
+    assert(axis.z > 0.0);
     const glm::dmat3 frame = frameAbout(axis);
     std::vector<double> azimuths;
     for (int i = 0; i <= azimuthPanels; ++i)
         azimuths.push_back(glm::two_pi<double>() * i / azimuthPanels);
-    return integratePanels(
-        [&](double polar) {
-            return std::sin(polar) *
-                   integratePanels([&](double azimuth) { return f(frame * fromPolar(polar, azimuth)); },
-                                   azimuths, rule);
-        },
-        polarBreaks, rule);
-}
-
-std::vector<double> gradedPolarBreaks(double first, int count) {
-    std::vector<double> breaks{0.0};
-    for (int i = 0; i < count; ++i)
-        breaks.push_back(first * std::pow(glm::pi<double>() / first, static_cast<double>(i) / (count - 1)));
-    breaks.back() = glm::pi<double>();
-    return breaks;
+    const auto wedge = [&](double azimuth) {
+        // w.z = axis.z cos(polar) + side sin(polar) is zero at the horizon.
+        const double side = (frame * fromPolar(glm::half_pi<double>(), azimuth)).z;
+        const double horizon = std::atan2(axis.z, -side);
+        return horizon * integratePanels(
+                             [&](double fraction) {
+                                 const double polar = horizon * fraction;
+                                 return std::sin(polar) * f(frame * fromPolar(polar, azimuth));
+                             },
+                             polarBreaks, rule);
+    };
+    return integratePanels(wedge, azimuths, rule);
 }
 
 }  // namespace lobe

@@ -1,4 +1,4 @@
-/// Gauss-Legendre quadrature on intervals and on the sphere's polar coordinates about any axis.
+/// Gauss-Legendre quadrature on intervals and on the hemisphere.
 #pragma once
 
 #include <functional>
@@ -22,13 +22,15 @@ QuadratureRule gaussLegendre(int n);
 double integratePanels(const std::function<double(double)>& f, std::span<const double> breaks,
                        const QuadratureRule& rule);
 
-/// Integral over all directions of f(w) dw in polar coordinates about the unit `axis`: panels of the polar
-/// angle between successive `polarBreaks` (radians, from 0 to pi for the whole sphere), `azimuthPanels` equal
-/// panels around. For lobes: put the axis on the peak and grade the breaks towards 0.
-double integrateSphere(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& axis,
-                       std::span<const double> polarBreaks, int azimuthPanels, const QuadratureRule& rule);
+/// 0, then `count` values in geometric progression from `first` to `last`.
+std::vector<double> gradedBreaks(double first, double last, int count);
 
-/// 0, then `count` angles in geometric progression from `first` to pi.
-std::vector<double> gradedPolarBreaks(double first, int count);
+/// Integral over the upper hemisphere (z > 0) of f(w) dw, in polar coordinates about the unit `axis`, which
+/// must lie in it: `azimuthPanels` equal panels around; between axis and horizon the given `polarBreaks`, as
+/// fractions from 0 to 1 of that angle. The horizon bounds the panels, so that f may jump there. For lobes:
+/// put the axis on the peak and grade the breaks towards 0.
+double integrateHemisphere(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& axis,
+                           std::span<const double> polarBreaks, int azimuthPanels,
+                           const QuadratureRule& rule);
 
 }  // namespace lobe

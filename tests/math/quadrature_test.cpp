@@ -41,21 +41,24 @@ TEST(GaussLegendre, NodesAscendAndAreSymmetric) {
 
 TEST(IntegratePanels, GradedPanelsResolveANarrowPeak) {
     const double width = 1e-5;
-    const std::vector<double> breaks = gradedPolarBreaks(1e-7, 60);
+    const std::vector<double> breaks = gradedBreaks(1e-7, glm::pi<double>(), 60);
     const double sum =
         integratePanels([&](double x) { return width / (x * x + width * width); }, breaks, gaussLegendre(12));
     EXPECT_NEAR(sum, std::atan(glm::pi<double>() / width), 1e-12);
 }
 
-TEST(IntegrateSphere, AreaAndSecondMomentAboutAnyAxis) {
-    const std::vector<double> breaks{0.0, 1.0, glm::pi<double>()};
+TEST(IntegrateHemisphere, AreaAndMomentsAboutAnyAxisAboveTheHorizon) {
+    const double pi = glm::pi<double>();
+    const QuadratureRule rule = gaussLegendre(24);
+    const std::vector<double> breaks{0.0, 0.3, 1.0};
     for (const glm::dvec3& axis :
-         {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::normalize(glm::dvec3(1, -2, 0.5))}) {
-        const QuadratureRule rule = gaussLegendre(16);
-        EXPECT_NEAR(integrateSphere([](const glm::dvec3&) { return 1.0; }, axis, breaks, 2, rule),
-                    4.0 * glm::pi<double>(), 1e-12);
-        EXPECT_NEAR(integrateSphere([](const glm::dvec3& w) { return w.x * w.x; }, axis, breaks, 2, rule),
-                    4.0 / 3.0 * glm::pi<double>(), 1e-12);
+         {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(1, -2, 0.5)), glm::dvec3(0.6, 0, 0.8)}) {
+        EXPECT_NEAR(integrateHemisphere([](const glm::dvec3&) { return 1.0; }, axis, breaks, 8, rule),
+                    2.0 * pi, 1e-10);
+        EXPECT_NEAR(integrateHemisphere([](const glm::dvec3& w) { return w.z; }, axis, breaks, 8, rule), pi,
+                    1e-10);
+        EXPECT_NEAR(integrateHemisphere([](const glm::dvec3& w) { return w.x * w.x; }, axis, breaks, 8, rule),
+                    2.0 / 3.0 * pi, 1e-10);
     }
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <optional>
+#include <sstream>
 
 #include "harness/brdf_table.hpp"
 #include "math/quadrature.hpp"
@@ -24,16 +26,16 @@ struct Albedo {
 Albedo albedo(const Brdf& brdf, const ParameterValues& values, double cosine) {
     const glm::dvec3 wo(std::sqrt((1.0 - cosine) * (1.0 + cosine)), 0.0, cosine);
     const glm::dvec3 axis(-wo.x, 0.0, wo.z);
-    const std::vector<double> breaks = gradedPolarBreaks(0.01 / (1.0 + brdf.lobeSharpness(values)), 48);
+    const std::vector<double> breaks = gradedBreaks(0.01 / (1.0 + brdf.lobeSharpness(values)), 1.0, 32);
     const auto integrate = [&](int nodes) {
-        return integrateSphere(
+        return integrateHemisphere(
             [&](const glm::dvec3& wi) {
                 return brdf.fCos({wi, wo}, values).r;
             },
             axis, breaks, 16, gaussLegendre(nodes));
     };
-    const double fine = integrate(12);
-    return {fine, std::abs(fine - integrate(6))};
+    const double fine = integrate(10);
+    return {fine, std::abs(fine - integrate(5))};
 }
 
 /// Every combination of minimum, middle and maximum, scalars by powers of ten where the range is wide.
@@ -62,14 +64,19 @@ std::vector<ParameterValues> parameterGrid(const Brdf& brdf) {
     return grid;
 }
 
-double worstAlbedo(const Brdf& brdf) {
-    double worst = 0.0;
+/// A combination whose albedo exceeds `bound` for certain, if there is one.
+std::optional<std::string> albedoAbove(const Brdf& brdf, double bound) {
     for (const ParameterValues& values : parameterGrid(brdf))
-        for (double cosine : {1.0, 0.5, 0.05}) {
+        for (double cosine : {0.05, 0.5, 1.0}) {
             const Albedo a = albedo(brdf, values, cosine);
-            worst = std::max(worst, a.value - a.error);
+            if (a.value - a.error <= bound) continue;
+            std::ostringstream text;
+            text << "albedo " << a.value << " at cosine " << cosine << ", values";
+            for (double value : values)
+                text << " " << value;
+            return text.str();
         }
-    return worst;
+    return std::nullopt;
 }
 
 /// Largest relative difference of f_r(L, V) and f_r(V, L).
@@ -89,7 +96,9 @@ TEST(Properties, ReciprocalExactlyWhereClaimed) {
     for (const Brdf& brdf : allBrdfs()) {
         const double asymmetry = worstAsymmetry(brdf);
         if (brdf.traits.reciprocal)
-            EXPECT_LT(asymmetry, 1e-9) << brdf.name;  // lobes of sharpness 2e4 amplify 1e-16
+            // Lobes of sharpness 2e4 amplify 1e-16, and a black metal's F = (1 - v.h)^5 the rounding of 1 -
+            // v.h.
+            EXPECT_LT(asymmetry, 1e-6) << brdf.name;
         else
             EXPECT_GT(asymmetry, 0.1) << brdf.name << " disclaims reciprocity but has it";
     }
@@ -97,11 +106,12 @@ TEST(Properties, ReciprocalExactlyWhereClaimed) {
 
 TEST(Properties, AlbedoAtMostOneExactlyWhereClaimed) {
     for (const Brdf& brdf : allBrdfs()) {
-        const double worst = worstAlbedo(brdf);
-        if (brdf.traits.energyConserving)
-            EXPECT_LE(worst, 1.0 + 1e-12) << brdf.name;
-        else
-            EXPECT_GT(worst, 1.01) << brdf.name << " disclaims conservation but has it";
+        if (brdf.traits.energyConserving) {
+            const auto gain = albedoAbove(brdf, 1.0 + 1e-9);
+            EXPECT_FALSE(gain) << brdf.name << ": " << *gain;
+        } else {
+            EXPECT_TRUE(albedoAbove(brdf, 1.01)) << brdf.name << " disclaims conservation but has it";
+        }
     }
 }
 
@@ -203,7 +213,9 @@ TEST(MetallicRoughness, SharpnessIsTheSteepestSlopeOfTheLobe) {
             const double step = 1e-4 * alpha;
             steepest = std::max(steepest, std::abs(logF(theta + step) - logF(theta - step)) / (2.0 * step));
         }
-        EXPECT_NEAR(steepest / brdf.lobeSharpness(values), 1.0, 0.05) << roughness;
+        // 2 / alpha is the slope of D against tan theta; against theta it is a little less for wide lobes.
+        EXPECT_LE(steepest / brdf.lobeSharpness(values), 1.001) << roughness;
+        EXPECT_GE(steepest / brdf.lobeSharpness(values), 0.9) << roughness;
     }
 }
 

@@ -64,6 +64,9 @@ Brdf metallic_roughness() {
                        "diffuse colour of dielectrics, normal reflectance of metals"),
         scalarParameter("metallic", 1.0, 0.0, 1.0, "0 dielectric, 1 metal"),
         scalarParameter("roughness", 1.0, 0.0, 1.0, "square root of GGX's alpha, which is kept above 1e-4")};
+    // A metal's lobe alone conserves. A dielectric's diffuse base is dimmed by 1 - F(v.h) only, not by what
+    // the lobe takes: the sum reaches 1.7 at grazing angles.
+    brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "baseColor";
     brdf.fCos = fCos;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };

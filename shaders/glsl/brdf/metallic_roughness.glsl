@@ -35,7 +35,8 @@ float metallic_roughness_lobe(Dirs d, float alpha)
 vec3 metallic_roughness_f_cos(Dirs d, MetallicRoughnessParams p)
 {
     float alpha = max(p.roughness * p.roughness, METALLIC_ROUGHNESS_MIN_ALPHA);
-    float dielectric = 1.0 - p.metallic;
+    // The max keeps compilers from seeing a mix here: as a + m (b - a) it would leave a dark metal 0.04 2^-24 of noise.
+    float dielectric = max(1.0 - p.metallic, 0.0);
     vec3 f0 = 0.04 * dielectric + p.base_color * p.metallic;
     vec3 f90_minus_f0 = 0.96 * dielectric + (1.0 - p.base_color) * p.metallic;
 
