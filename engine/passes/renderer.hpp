@@ -31,6 +31,8 @@ struct RenderOptions {
     Quality quality;
     AovSet aovs = {Aov::radiance};
     bool timePasses = false;  ///< costs a finish a pass on software drivers
+
+    bool operator==(const RenderOptions&) const = default;
 };
 
 /// What planning needs to know of a context.

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "scene/camera.hpp"

@@ -1,0 +1,15 @@
+/// The commands of lobe; each takes the arguments after its name and returns the exit code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lobe::app {
+
+int renderCommand(const std::vector<std::string>& arguments);
+int planCommand(const std::vector<std::string>& arguments);
+int infoCommand(const std::vector<std::string>& arguments);
+/// `lobe help [--markdown]`: all settings, as docs/cli.md holds them.
+int helpCommand(const std::vector<std::string>& arguments);
+
+}  // namespace lobe::app

@@ -1,0 +1,34 @@
+/// Configuration files, and the order in which they win (docs/cli.md): system, user, --config, --settings.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "settings.hpp"
+
+namespace lobe::app {
+
+/// A JSON file; throws InputError naming file and line for what is no JSON or not readable.
+nlohmann::json readJsonFile(const std::filesystem::path& file);
+
+/// A configuration: an object of settings, or a list of blocks {"match": ..., "settings": {...}}.
+class Config {
+public:
+    Config(nlohmann::json content, std::string origin);
+    /// Applies all settings, or those of the blocks that match the scene's path.
+    void apply(const std::string& scene, Settings& settings) const;
+
+private:
+    nlohmann::json content_;
+    std::string origin_;
+};
+
+/// The files of the system and of the user that exist, in the order of precedence, weakest first.
+std::vector<Config> standardConfigs();
+
+/// Shell pattern: * any text, ? any letter.
+bool matchesGlob(const std::string& pattern, const std::string& text);
+
+}  // namespace lobe::app

@@ -1,0 +1,26 @@
+/// Renders a list of shots: scenes are loaded ahead on one thread, pictures encoded behind on another, and OpenGL stays
+/// on the caller's.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "gl/context.hpp"
+#include "outcome.hpp"
+#include "reporter.hpp"
+#include "shots.hpp"
+
+namespace lobe::app {
+
+struct PipelineOptions {
+    gl::ContextRequest context;
+    bool resume = false;     ///< leave out pictures that are there and were made the same way
+    bool timePasses = false;
+};
+
+/// Every shot ends in one outcome, in order, to `reporter`. Throws ContextError if no context can be made; errors of
+/// single shots are outcomes. Stops after the present shot once `interrupted` is set.
+void runShots(const std::vector<Shot>& shots, const PipelineOptions& options, Reporter& reporter,
+              const std::atomic<bool>& interrupted);
+
+}  // namespace lobe::app

@@ -1,0 +1,148 @@
+// Values of settings: from text and JSON to one canonical form.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/closest_name.hpp"
+#include "base/error.hpp"
+#include "settings.hpp"
+
+namespace lobe::app {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const Setting& setting, const json& given, const std::string& where, const std::string& expected) {
+    const std::string value = given.is_string() ? given.get<std::string>() : given.dump();
+    throw UsageError(where + ": " + setting.key + " '" + value + "'; expected " + expected);
+}
+
+std::vector<std::string> split(const std::string& text, const char* separators) {
+    std::vector<std::string> parts;
+    for (size_t start = 0; start <= text.size();) {
+        const size_t end = std::min(text.find_first_of(separators, start), text.size());
+        parts.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return parts;
+}
+
+std::optional<double> number(const std::string& text) {
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value)) return {};
+    return value;
+}
+
+std::string rangeText(const Setting& setting) {
+    const auto shortest = [](double value) {
+        std::string text = std::to_string(value);
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.') text.pop_back();
+        return text;
+    };
+    return shortest(setting.minimum) + " to " + shortest(setting.maximum);
+}
+
+json parseNumber(const Setting& setting, const json& given, const std::string& where) {
+    const bool whole = setting.type == SettingType::integer;
+    const std::string expected = std::string(whole ? "a whole number" : "a number") + " from " + rangeText(setting);
+    std::optional<double> value;
+    if (given.is_number()) value = given.get<double>();
+    if (given.is_string()) value = number(given.get<std::string>());
+    if (!value || *value < setting.minimum || *value > setting.maximum || (whole && *value != std::floor(*value)))
+        refuse(setting, given, where, expected);
+    return whole ? json(static_cast<int64_t>(*value)) : json(*value);
+}
+
+std::vector<double> numbers(const Setting& setting, const json& given, const std::string& where, size_t count,
+                            const char* separators, const std::string& expected) {
+    std::vector<double> values;
+    if (given.is_array()) {
+        for (const json& item : given)
+            if (item.is_number()) values.push_back(item.get<double>());
+    } else if (given.is_string()) {
+        for (const std::string& part : split(given.get<std::string>(), separators)) {
+            const auto value = number(part);
+            if (!value) refuse(setting, given, where, expected);
+            values.push_back(*value);
+        }
+    }
+    if (values.size() != count) refuse(setting, given, where, expected);
+    return values;
+}
+
+json parseResolution(const Setting& setting, const json& given, const std::string& where) {
+    const std::string expected = "width and height from 1 to 16384, as 1280,720 or 1280x720";
+    const std::vector<double> size = numbers(setting, given, where, 2, ",xX", expected);
+    for (const double side : size)
+        if (side != std::floor(side) || side < 1 || side > 16384) refuse(setting, given, where, expected);
+    return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+}
+
+json parseColour(const Setting& setting, const json& given, const std::string& where) {
+    const std::string expected = "transparent, #rrggbb, or R,G,B each from 0 to 1";
+    if (given.is_string() && given == "transparent") return given;
+    if (given.is_string() && given.get<std::string>().starts_with("#")) {
+        const std::string text = given.get<std::string>();
+        unsigned code = 0;
+        const char* end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data() + 1, end, code, 16);
+        if (text.size() != 7 || error != std::errc() || stop != end) refuse(setting, given, where, expected);
+        return {(code >> 16) / 255.0, ((code >> 8) & 255) / 255.0, (code & 255) / 255.0};
+    }
+    const std::vector<double> rgb = numbers(setting, given, where, 3, ",", expected);
+    for (const double value : rgb)
+        if (value < 0.0 || value > 1.0) refuse(setting, given, where, expected);
+    return rgb;
+}
+
+std::string listText(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+void requireChoice(const Setting& setting, const std::string& value, const json& given, const std::string& where) {
+    if (std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end()) return;
+    refuse(setting, given, where, "one of " + listText(setting.choices) + didYouMean(value, setting.choices));
+}
+
+}  // namespace
+
+json parseSetting(const Setting& setting, const json& given, const std::string& where) {
+    if (given.is_null()) return setting.defaultValue;
+    switch (setting.type) {
+        case SettingType::text:
+            if (given.is_number_integer()) return std::to_string(given.get<int64_t>());  // a camera's index
+            if (!given.is_string() || given.get<std::string>().empty()) refuse(setting, given, where, "a name");
+            return given;
+        case SettingType::integer:
+        case SettingType::real: return parseNumber(setting, given, where);
+        case SettingType::choice: {
+            const std::string value = given.is_string() ? given.get<std::string>() : given.dump();
+            requireChoice(setting, value, given, where);
+            return value;
+        }
+        case SettingType::vector: return numbers(setting, given, where, 3, ",", "three numbers, as 1,2.5,-3");
+        case SettingType::colour: return parseColour(setting, given, where);
+        case SettingType::resolution: return parseResolution(setting, given, where);
+        case SettingType::list: break;
+    }
+    json result = json::array();
+    if (given.is_array()) {
+        for (const json& item : given)
+            result.push_back(item.is_string() ? item.get<std::string>() : item.dump());
+    } else if (given.is_string()) {
+        for (const std::string& part : split(given.get<std::string>(), ","))
+            result.push_back(part);
+    }
+    if (result.empty()) refuse(setting, given, where, "names from " + listText(setting.choices));
+    for (const json& item : result)
+        requireChoice(setting, item.get<std::string>(), given, where);
+    return result;
+}
+
+}  // namespace lobe::app

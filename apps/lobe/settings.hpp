@@ -1,0 +1,76 @@
+/// What can be set about a picture. One table: flags, -D keys, configuration files, batch files and the documentation
+/// are all derived from it.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/image_files.hpp"
+#include "image/tone.hpp"
+#include "plan/aov.hpp"
+#include "plan/quality.hpp"
+#include "scene/load.hpp"
+
+namespace lobe::app {
+
+enum class SettingType { text, integer, real, choice, vector, colour, resolution, list };
+
+struct Setting {
+    std::string key;             ///< "tone_mapping"; its flag is "--tone-mapping"
+    SettingType type;
+    nlohmann::json defaultValue;  ///< null: not set (its meaning is in the help)
+    std::string help;
+    std::string group;
+    std::vector<std::string> choices = {};  ///< for choice and list
+    double minimum = 0.0, maximum = 0.0;    ///< for integer and real
+
+    std::string flag() const;
+    std::string valueName() const;  ///< "W,H", "NAME", "1..100", for help
+};
+
+const std::vector<Setting>& settingTable();
+std::vector<std::string> settingKeys();
+/// Throws UsageError "WHERE: unknown setting 'x'; did you mean 'y'?".
+const Setting& requireSetting(const std::string& key, const std::string& where);
+
+/// The canonical value of a setting from text ("1280x720") or JSON ([1280, 720]). Throws UsageError naming `where`.
+nlohmann::json parseSetting(const Setting& setting, const nlohmann::json& given, const std::string& where);
+
+/// Values with their origin. Later layers win, but for values marked with a leading '!'.
+class Settings {
+public:
+    Settings();  ///< built-in defaults
+    /// `key` or `value` may start with '!': then only another '!' wins over it.
+    void set(const std::string& key, const nlohmann::json& value, const std::string& origin);
+    void setAll(const nlohmann::json& object, const std::string& origin);
+    void reset(const std::string& key, const std::string& origin);
+
+    const nlohmann::json& get(const std::string& key) const;
+    nlohmann::json toJson() const;  ///< key -> value, those that are set
+    std::string chain() const;      ///< "key = value (origin)" a line, for --verbose
+
+private:
+    struct Value {
+        nlohmann::json value;
+        std::string origin = "built-in";
+        bool forced = false;
+    };
+    std::map<std::string, Value> values_;
+};
+
+// Typed readings of settings.
+Quality qualityOf(const Settings& settings);
+LoadOptions loadOptionsOf(const Settings& settings);
+AovSet aovsOf(const Settings& settings);
+ToneMapping toneMappingOf(const Settings& settings);
+NormalsMode normalsOf(const Settings& settings);
+struct Background {
+    bool transparent = false;
+    float color[3] = {0.0f, 0.0f, 0.0f};  ///< linear
+};
+Background backgroundOf(const Settings& settings);
+
+}  // namespace lobe::app

@@ -1,0 +1,20 @@
+/// From a loaded scene and a shot's settings to what is drawn: model override, default light, camera.
+#pragma once
+
+#include <memory>
+
+#include "passes/renderer.hpp"
+#include "settings.hpp"
+#include "shots.hpp"
+
+namespace lobe::app {
+
+/// The scene as the settings change it. `base` is returned itself if they do not.
+std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& base, const Settings& settings);
+
+/// The camera of one frame. Throws UsageError (no such camera, contradictory settings).
+Camera cameraOf(const Scene& scene, const Settings& settings, int frame);
+
+RenderOptions renderOptionsOf(const Settings& settings);
+
+}  // namespace lobe::app
