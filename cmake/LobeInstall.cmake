@@ -19,5 +19,5 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/lobeConfig.cmake.in ${CM
 # Before 1.0 a new minor version may change any interface.
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/lobeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/lobeConfig.cmake ${CMAKE_BINARY_DIR}/lobeConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/LobeOpenImageIO.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/LobeOpenImageIO.cmake ${CMAKE_CURRENT_LIST_DIR}/lobe_place.cpp.in
         DESTINATION ${package_dir})

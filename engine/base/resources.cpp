@@ -6,6 +6,11 @@
 #include "base/error.hpp"
 #include "lobe_paths.hpp"
 
+// Where the installed package has them. Its CMake file adds a source that defines these to programs built
+// with it (cmake/lobe_place.cpp.in); other programs have none.
+extern "C" __attribute__((weak)) const char* lobePackageShaders();
+extern "C" __attribute__((weak)) const char* lobePackageWorkers();
+
 namespace lobe {
 namespace {
 
@@ -37,16 +42,21 @@ fs::path fromEnvironment(const char* variable) {
 fs::path shaderDirectory() {
     const fs::path asked = fromEnvironment("LOBE_SHADER_DIR");
     if (!asked.empty()) return firstThatExists("LOBE_SHADER_DIR", {asked});
-    return firstThatExists("GLSL library", {programFolder() / ".." / "share" / "lobe" / "glsl",
-                                            fs::path(paths::kInstalledShaders), fs::path(paths::kSourceShaders)});
+    const fs::path package = lobePackageShaders != nullptr ? lobePackageShaders() : "";
+    return firstThatExists("GLSL library",
+                           {programFolder() / ".." / "share" / "lobe" / "glsl", package,
+                            fs::path(paths::kInstalledShaders), fs::path(paths::kSourceShaders)});
 }
 
 fs::path workerProgram(const std::string& name) {
     const fs::path asked = fromEnvironment("LOBE_WORKER_DIR");
     if (!asked.empty()) return firstThatExists(name + " (LOBE_WORKER_DIR)", {asked / name});
-    return firstThatExists("helper program " + name,
-                           {programFolder() / name, programFolder() / ".." / "libexec" / "lobe" / name,
-                            fs::path(paths::kInstalledWorkers) / name, fs::path(paths::kBuiltWorkers) / name});
+    const fs::path package =
+        lobePackageWorkers != nullptr ? fs::path(lobePackageWorkers()) / name : fs::path();
+    return firstThatExists(
+        "helper program " + name,
+        {programFolder() / name, programFolder() / ".." / "libexec" / "lobe" / name, package,
+         fs::path(paths::kInstalledWorkers) / name, fs::path(paths::kBuiltWorkers) / name});
 }
 
 }  // namespace lobe

@@ -6,12 +6,13 @@
 namespace lobe {
 
 /// The folder of the GLSL library ("shaders/glsl"). Looked for in this order: $LOBE_SHADER_DIR;
-/// ../share/lobe/glsl beside the running program; the folder it was installed to; the source tree it was built from.
-/// Throws InputError that names every place tried.
+/// ../share/lobe/glsl beside the running program; the installed package that it was built with; the folder it
+/// was installed to; the source tree it was built from. Throws InputError that names every place tried.
 std::filesystem::path shaderDirectory();
 
 /// A helper program (NAME without folder). Looked for in: $LOBE_WORKER_DIR; beside the running program;
-/// ../libexec/lobe beside it; the installed libexec folder; the build tree. Throws InputError as above.
+/// ../libexec/lobe beside it; the package; the installed libexec folder; the build tree. Throws InputError as
+/// above.
 std::filesystem::path workerProgram(const std::string& name);
 
 }  // namespace lobe
