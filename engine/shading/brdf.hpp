@@ -24,7 +24,7 @@ struct Parameter {
     glm::dvec3 defaultValue{0.0};  ///< scalars and choices use .x
     double minimum = 0.0;          ///< inclusive range, per channel
     double maximum = 1.0;
-    std::string unit = "1";            ///< "1" for none
+    std::string unit = "1";      ///< "1" for none
     std::string description;     ///< one line
     bool textureIsSrgb = false;  ///< colour-coded texture (diffuse, specular, base colour)
     bool mayBeTextured = true;

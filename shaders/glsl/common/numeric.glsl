@@ -2,7 +2,7 @@
 ///
 /// source log1p(x) = 2 atanh(x / (2 + x)), the odd series of atanh
 /// stable near 1 the built-in log has only absolute accuracy (2e-7 on llvmpipe), so a small log1p must not use it
-/// error  numeric_log1p: relative < 4e-7 for |x| < 0.3, the built-in's beyond (tests/shading/numeric_test.cpp)
+/// error  numeric_log1p: relative < 2e-7 for |x| < 0.3, 3e-7 beyond (llvmpipe; tests/shading/glsl_basics_test.cpp)
 
 /// ln(1 + x) for x > -1; infinite x gives the built-in's log of infinity.
 float numeric_log1p(float x)
