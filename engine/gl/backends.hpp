@@ -24,8 +24,8 @@ protected:
 };
 
 struct EglDevice {
-    int index = -1;          ///< for --device
-    std::string name;        ///< "/dev/dri/card0", "software"
+    int index = -1;    ///< for --device
+    std::string name;  ///< "/dev/dri/card0", "software"
     bool software = false;
 };
 
@@ -38,7 +38,8 @@ std::unique_ptr<Context> makeEglPbufferContext(const ContextRequest& request);
 std::unique_ptr<Context> makeOsmesaContext(const ContextRequest& request);
 std::unique_ptr<Context> makeGlfwContext(const ContextRequest& request);
 
-/// The context that is current through this program, so that another one can release it first. One thread at a time.
+/// The context that is current through this program, so that another one can release it first. One thread at
+/// a time.
 void noteCurrent(Context* context);
 Context* currentContext();
 

@@ -13,12 +13,14 @@ namespace {
 thread_local std::vector<std::string> scopes;
 thread_local std::string firstError;
 
-void GLAD_API_PTR report(GLenum, GLenum type, GLuint id, GLenum, GLsizei, const GLchar* message, const void*) {
+void GLAD_API_PTR report(GLenum, GLenum type, GLuint id, GLenum, GLsizei, const GLchar* message,
+                         const void*) {
     if (type != GL_DEBUG_TYPE_ERROR) return;
     std::string place;
     for (const std::string& scope : scopes)
         place += (place.empty() ? "" : " > ") + scope;
-    const std::string text = (place.empty() ? "OpenGL" : place) + ": error " + std::to_string(id) + ": " + message;
+    const std::string text =
+        (place.empty() ? "OpenGL" : place) + ": error " + std::to_string(id) + ": " + message;
     spdlog::error(text);
     if (firstError.empty()) firstError = text;
 }
@@ -31,9 +33,15 @@ void enableDebugOutput() {
     glDebugMessageCallback(report, nullptr);
 }
 
-DebugScope::DebugScope(const std::string& name) { scopes.push_back(name); }
-DebugScope::~DebugScope() { scopes.pop_back(); }
+DebugScope::DebugScope(const std::string& name) {
+    scopes.push_back(name);
+}
+DebugScope::~DebugScope() {
+    scopes.pop_back();
+}
 
-std::string takeDebugError() { return std::exchange(firstError, {}); }
+std::string takeDebugError() {
+    return std::exchange(firstError, {});
+}
 
 }  // namespace lobe::gl

@@ -5,8 +5,8 @@
 
 namespace lobe::gl {
 
-/// Reports each error of the current context as it happens, on standard error, with the scopes that it happened in;
-/// checkErrors() then throws with the first message. Needs KHR_debug.
+/// Reports each error of the current context as it happens, on standard error, with the scopes that it
+/// happened in; checkErrors() then throws with the first message. Needs KHR_debug.
 void enableDebugOutput();
 
 /// Names what runs until the end of the block: "light.point". Costs nothing in contexts without debug output.

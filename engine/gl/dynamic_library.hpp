@@ -8,8 +8,8 @@ namespace lobe::gl {
 
 class DynamicLibrary {
 public:
-    /// The first of `names` that opens. `overrideVariable` names an environment variable whose value, if set, is the
-    /// only name tried. Throws ContextError with the loader's own reason.
+    /// The first of `names` that opens. `overrideVariable` names an environment variable whose value, if set,
+    /// is the only name tried. Throws ContextError with the loader's own reason.
     DynamicLibrary(const std::vector<std::string>& names, const char* overrideVariable);
     ~DynamicLibrary();
     DynamicLibrary(const DynamicLibrary&) = delete;

@@ -16,16 +16,20 @@ using Proc = void (*)();
 /// The library's functions. EGL's own loader finds the vendor's driver.
 struct Egl {
     DynamicLibrary library{{"libEGL.so.1", "libEGL.so"}, "LOBE_EGL_LIBRARY"};
-    decltype(&eglGetProcAddress) getProcAddress = library.function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
+    decltype(&eglGetProcAddress) getProcAddress =
+        library.function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
     decltype(&eglInitialize) initialize = library.function<decltype(&eglInitialize)>("eglInitialize");
     decltype(&eglTerminate) terminate = library.function<decltype(&eglTerminate)>("eglTerminate");
     decltype(&eglBindAPI) bindApi = library.function<decltype(&eglBindAPI)>("eglBindAPI");
     decltype(&eglChooseConfig) chooseConfig = library.function<decltype(&eglChooseConfig)>("eglChooseConfig");
-    decltype(&eglCreateContext) createContext = library.function<decltype(&eglCreateContext)>("eglCreateContext");
-    decltype(&eglDestroyContext) destroyContext = library.function<decltype(&eglDestroyContext)>("eglDestroyContext");
+    decltype(&eglCreateContext) createContext =
+        library.function<decltype(&eglCreateContext)>("eglCreateContext");
+    decltype(&eglDestroyContext) destroyContext =
+        library.function<decltype(&eglDestroyContext)>("eglDestroyContext");
     decltype(&eglCreatePbufferSurface) createPbuffer =
         library.function<decltype(&eglCreatePbufferSurface)>("eglCreatePbufferSurface");
-    decltype(&eglDestroySurface) destroySurface = library.function<decltype(&eglDestroySurface)>("eglDestroySurface");
+    decltype(&eglDestroySurface) destroySurface =
+        library.function<decltype(&eglDestroySurface)>("eglDestroySurface");
     decltype(&eglMakeCurrent) makeCurrent = library.function<decltype(&eglMakeCurrent)>("eglMakeCurrent");
     decltype(&eglGetDisplay) getDisplay = library.function<decltype(&eglGetDisplay)>("eglGetDisplay");
     decltype(&eglQueryString) queryString = library.function<decltype(&eglQueryString)>("eglQueryString");
@@ -54,7 +58,8 @@ Egl& egl() {
 }
 
 std::vector<EGLDeviceEXT> deviceHandles() {
-    if (!egl().hasClientExtension("EGL_EXT_device_enumeration") && !egl().hasClientExtension("EGL_EXT_device_base"))
+    if (!egl().hasClientExtension("EGL_EXT_device_enumeration") &&
+        !egl().hasClientExtension("EGL_EXT_device_base"))
         throw ContextError("EGL lists no devices (EGL_EXT_device_enumeration is absent)");
     const auto query = egl().extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
     EGLint count = 0;
@@ -85,9 +90,11 @@ public:
     ~EglContext() override { close(); }
 
     void makeCurrent() override {
-        // With another backend's context current, EGL reports success and changes nothing: release that one first.
+        // With another backend's context current, EGL reports success and changes nothing: release that one
+        // first.
         if (Context* other = currentContext(); other != nullptr && other != this) other->release();
-        if (egl().makeCurrent(display_, surface_, surface_, context_) == EGL_FALSE) egl().fail("eglMakeCurrent");
+        if (egl().makeCurrent(display_, surface_, surface_, context_) == EGL_FALSE)
+            egl().fail("eglMakeCurrent");
         noteCurrent(this);
         if (loaded_) loadFunctions(procAddress);
         loaded_ = true;
@@ -102,16 +109,23 @@ private:
 
     void open(Surface kind) {
         if (egl().bindApi(EGL_OPENGL_API) == EGL_FALSE) egl().fail("eglBindAPI(EGL_OPENGL_API)");
-        const EGLint wanted[] = {EGL_SURFACE_TYPE, kind == Surface::pbuffer ? EGL_PBUFFER_BIT : 0, EGL_RENDERABLE_TYPE,
-                                 EGL_OPENGL_BIT, EGL_NONE};
+        const EGLint wanted[] = {EGL_SURFACE_TYPE, kind == Surface::pbuffer ? EGL_PBUFFER_BIT : 0,
+                                 EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
-        if (egl().chooseConfig(display_, wanted, &config, 1, &count) == EGL_FALSE) egl().fail("eglChooseConfig");
+        if (egl().chooseConfig(display_, wanted, &config, 1, &count) == EGL_FALSE)
+            egl().fail("eglChooseConfig");
         if (count == 0) throw ContextError("no EGL configuration offers OpenGL");
         // EGL 1.4 knows no EGL_CONTEXT_OPENGL_DEBUG: the flag of EGL_KHR_create_context serves both.
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 3,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                                     EGL_CONTEXT_FLAGS_KHR, request_.debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0, EGL_NONE};
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_MINOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                                     EGL_CONTEXT_FLAGS_KHR,
+                                     request_.debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+                                     EGL_NONE};
         context_ = egl().createContext(display_, config, EGL_NO_CONTEXT, attributes);
         if (context_ == EGL_NO_CONTEXT) egl().fail("eglCreateContext for OpenGL 3.3 core");
         if (kind == Surface::none) return;
@@ -134,7 +148,8 @@ private:
 };
 
 EGLDisplay platformDisplay(EGLenum platform, void* native) {
-    return egl().extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT")(platform, native, nullptr);
+    return egl().extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT")(platform, native,
+                                                                                        nullptr);
 }
 
 }  // namespace
@@ -147,8 +162,10 @@ std::vector<EglDevice> eglDevices() {
         EglDevice device;
         device.index = static_cast<int>(i);
         const char* extensions = queryString(handles[i], EGL_EXTENSIONS);
-        device.software = extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
-        const bool hasFile = extensions != nullptr && std::strstr(extensions, "EGL_EXT_device_drm") != nullptr;
+        device.software =
+            extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+        const bool hasFile =
+            extensions != nullptr && std::strstr(extensions, "EGL_EXT_device_drm") != nullptr;
         const char* file = hasFile ? queryString(handles[i], EGL_DRM_DEVICE_FILE_EXT) : nullptr;
         device.name = file != nullptr ? file : device.software ? "software" : "no device file";
         result.push_back(device);
@@ -159,19 +176,21 @@ std::vector<EglDevice> eglDevices() {
 std::unique_ptr<Context> makeEglDeviceContext(const ContextRequest& request, int index) {
     const std::vector<EGLDeviceEXT> handles = deviceHandles();
     if (index < 0 || static_cast<size_t>(index) >= handles.size()) throw ContextError("no such EGL device");
-    return std::make_unique<EglContext>(request, platformDisplay(EGL_PLATFORM_DEVICE_EXT, handles[static_cast<size_t>(index)]),
-                                        Surface::none, "device " + std::to_string(index) + " (" + eglDevices()[static_cast<size_t>(index)].name + ")");
+    return std::make_unique<EglContext>(
+        request, platformDisplay(EGL_PLATFORM_DEVICE_EXT, handles[static_cast<size_t>(index)]), Surface::none,
+        "device " + std::to_string(index) + " (" + eglDevices()[static_cast<size_t>(index)].name + ")");
 }
 
 std::unique_ptr<Context> makeEglSurfacelessContext(const ContextRequest& request) {
     if (!egl().hasClientExtension("EGL_MESA_platform_surfaceless"))
         throw ContextError("EGL_MESA_platform_surfaceless is absent");
-    return std::make_unique<EglContext>(request, platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr), Surface::none,
-                                        "surfaceless");
+    return std::make_unique<EglContext>(request, platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr),
+                                        Surface::none, "surfaceless");
 }
 
 std::unique_ptr<Context> makeEglPbufferContext(const ContextRequest& request) {
-    return std::make_unique<EglContext>(request, egl().getDisplay(EGL_DEFAULT_DISPLAY), Surface::pbuffer, "pbuffer");
+    return std::make_unique<EglContext>(request, egl().getDisplay(EGL_DEFAULT_DISPLAY), Surface::pbuffer,
+                                        "pbuffer");
 }
 
 }  // namespace lobe::gl

@@ -1,5 +1,5 @@
-// Contexts through GLFW: a hidden window. Needs a display; the library is opened at run time, so programs that never
-// ask for it do not load X11.
+// Contexts through GLFW: a hidden window. Needs a display; the library is opened at run time, so programs
+// that never ask for it do not load X11.
 #include "base/error.hpp"
 #include "gl/backends.hpp"
 #include "gl/dynamic_library.hpp"
@@ -10,8 +10,9 @@ namespace {
 using GlfwWindow = struct GlfwWindowTag*;
 using Proc = void (*)();
 
-constexpr int kVisible = 0x00020004, kContextMajor = 0x00022002, kContextMinor = 0x00022003, kForwardCompatible = 0x00022006,
-              kDebugContext = 0x00022007, kProfile = 0x00022008, kCoreProfile = 0x00032001, kTrue = 1, kFalse = 0;
+constexpr int kVisible = 0x00020004, kContextMajor = 0x00022002, kContextMinor = 0x00022003,
+              kForwardCompatible = 0x00022006, kDebugContext = 0x00022007, kProfile = 0x00022008,
+              kCoreProfile = 0x00032001, kTrue = 1, kFalse = 0;
 
 struct Glfw {
     DynamicLibrary library{{"libglfw.so.3"}, "LOBE_GLFW_LIBRARY"};
@@ -27,7 +28,8 @@ struct Glfw {
     [[noreturn]] void fail(const char* function) const {
         const char* description = nullptr;
         getError(&description);
-        throw ContextError(std::string(function) + " failed" + (description != nullptr ? std::string(": ") + description : ""));
+        throw ContextError(std::string(function) + " failed" +
+                           (description != nullptr ? std::string(": ") + description : ""));
     }
 };
 
@@ -75,6 +77,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Context> makeGlfwContext(const ContextRequest& request) { return std::make_unique<GlfwContext>(request); }
+std::unique_ptr<Context> makeGlfwContext(const ContextRequest& request) {
+    return std::make_unique<GlfwContext>(request);
+}
 
 }  // namespace lobe::gl

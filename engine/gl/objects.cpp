@@ -17,25 +17,39 @@ std::string hex(GLenum value) {
 
 std::string errorName(GLenum error) {
     switch (error) {
-        case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-        case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-        case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-        case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-        case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-        default: return hex(error);
+        case GL_INVALID_ENUM:
+            return "GL_INVALID_ENUM";
+        case GL_INVALID_VALUE:
+            return "GL_INVALID_VALUE";
+        case GL_INVALID_OPERATION:
+            return "GL_INVALID_OPERATION";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "GL_INVALID_FRAMEBUFFER_OPERATION";
+        case GL_OUT_OF_MEMORY:
+            return "GL_OUT_OF_MEMORY";
+        default:
+            return hex(error);
     }
 }
 
 std::string statusName(GLenum status) {
     switch (status) {
-        case GL_FRAMEBUFFER_UNDEFINED: return "GL_FRAMEBUFFER_UNDEFINED";
-        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
-        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT: return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
-        case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER: return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
-        case GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER: return "GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER";
-        case GL_FRAMEBUFFER_UNSUPPORTED: return "GL_FRAMEBUFFER_UNSUPPORTED";
-        case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE: return "GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE";
-        default: return hex(status);
+        case GL_FRAMEBUFFER_UNDEFINED:
+            return "GL_FRAMEBUFFER_UNDEFINED";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+            return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+            return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
+        case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER:
+            return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
+        case GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER:
+            return "GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER";
+        case GL_FRAMEBUFFER_UNSUPPORTED:
+            return "GL_FRAMEBUFFER_UNSUPPORTED";
+        case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+            return "GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE";
+        default:
+            return hex(status);
     }
 }
 
@@ -46,37 +60,49 @@ GLuint BufferTraits::create() {
     glGenBuffers(1, &id);
     return id;
 }
-void BufferTraits::destroy(GLuint id) { glDeleteBuffers(1, &id); }
+void BufferTraits::destroy(GLuint id) {
+    glDeleteBuffers(1, &id);
+}
 GLuint TextureTraits::create() {
     GLuint id = 0;
     glGenTextures(1, &id);
     return id;
 }
-void TextureTraits::destroy(GLuint id) { glDeleteTextures(1, &id); }
+void TextureTraits::destroy(GLuint id) {
+    glDeleteTextures(1, &id);
+}
 GLuint SamplerTraits::create() {
     GLuint id = 0;
     glGenSamplers(1, &id);
     return id;
 }
-void SamplerTraits::destroy(GLuint id) { glDeleteSamplers(1, &id); }
+void SamplerTraits::destroy(GLuint id) {
+    glDeleteSamplers(1, &id);
+}
 GLuint VertexArrayTraits::create() {
     GLuint id = 0;
     glGenVertexArrays(1, &id);
     return id;
 }
-void VertexArrayTraits::destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
+void VertexArrayTraits::destroy(GLuint id) {
+    glDeleteVertexArrays(1, &id);
+}
 GLuint FramebufferTraits::create() {
     GLuint id = 0;
     glGenFramebuffers(1, &id);
     return id;
 }
-void FramebufferTraits::destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
+void FramebufferTraits::destroy(GLuint id) {
+    glDeleteFramebuffers(1, &id);
+}
 GLuint QueryTraits::create() {
     GLuint id = 0;
     glGenQueries(1, &id);
     return id;
 }
-void QueryTraits::destroy(GLuint id) { glDeleteQueries(1, &id); }
+void QueryTraits::destroy(GLuint id) {
+    glDeleteQueries(1, &id);
+}
 
 PixelFormat pixelFormat(GLenum internalFormat) {
     static const std::map<GLenum, PixelFormat> formats = {
@@ -108,7 +134,8 @@ PixelFormat pixelFormat(GLenum internalFormat) {
         {GL_DEPTH24_STENCIL8, {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8}},
         {GL_DEPTH32F_STENCIL8, {GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV}}};
     const auto found = formats.find(internalFormat);
-    if (found == formats.end()) throw std::logic_error("no pixel format for internal format " + hex(internalFormat));
+    if (found == formats.end())
+        throw std::logic_error("no pixel format for internal format " + hex(internalFormat));
     return found->second;
 }
 
@@ -116,7 +143,8 @@ Texture makeTarget(GLenum internalFormat, int width, int height) {
     Texture texture = Texture::make();
     const PixelFormat format = pixelFormat(internalFormat);
     glBindTexture(GL_TEXTURE_2D, texture.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internalFormat), width, height, 0, format.format, format.type, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internalFormat), width, height, 0, format.format,
+                 format.type, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -142,7 +170,8 @@ Framebuffer makeFramebuffer(const std::vector<GLuint>& colors, GLuint depth, GLe
     }
     const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw ContextError("the driver refuses a framebuffer of " + std::to_string(colors.size()) + " colour targets: " + statusName(status));
+        throw ContextError("the driver refuses a framebuffer of " + std::to_string(colors.size()) +
+                           " colour targets: " + statusName(status));
     return framebuffer;
 }
 
@@ -161,7 +190,8 @@ void checkErrors(const char* place) {
     while (glGetError() != GL_NO_ERROR) {
     }
     const std::string reported = takeDebugError();
-    throw ContextError(std::string(place) + ": " + errorName(error) + (reported.empty() ? "" : " (" + reported + ")"));
+    throw ContextError(std::string(place) + ": " + errorName(error) +
+                       (reported.empty() ? "" : " (" + reported + ")"));
 }
 
 }  // namespace lobe::gl

@@ -90,8 +90,8 @@ struct TextureBuffer {
 };
 TextureBuffer makeTextureBuffer(GLenum internalFormat, const void* data, size_t bytes);
 
-/// Throws ContextError "PLACE: GL_INVALID_..." if an error is pending. For use after groups of calls; in debug
-/// contexts each error is reported as it happens.
+/// Throws ContextError "PLACE: GL_INVALID_..." if an error is pending. For use after groups of calls; in
+/// debug contexts each error is reported as it happens.
 void checkErrors(const char* place);
 
 }  // namespace lobe::gl

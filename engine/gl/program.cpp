@@ -36,11 +36,13 @@ std::string translated(const std::string& log, const ShaderSource& source) {
             continue;
         }
         const ShaderSource::Place& place = source.places[line - 1];
-        result += "\n" + place.file + ":" + std::to_string(place.line) + ": " + message.substr(match[0].length());
+        result +=
+            "\n" + place.file + ":" + std::to_string(place.line) + ": " + message.substr(match[0].length());
         for (size_t shown = line > 1 ? line - 1 : 1; shown <= std::min(line + 1, text.size()); ++shown) {
             const ShaderSource::Place& at = source.places[shown - 1];
             if (at.file == place.file)
-                result += "\n  " + std::string(shown == line ? "> " : "  ") + std::to_string(at.line) + " | " + text[shown - 1];
+                result += "\n  " + std::string(shown == line ? "> " : "  ") + std::to_string(at.line) +
+                          " | " + text[shown - 1];
         }
     }
     return result;
@@ -90,7 +92,8 @@ Program::Program(const ShaderSource& vertex, const ShaderSource& fragment, const
     throw ShaderError("program " + name + " does not link: " + log);
 }
 
-Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)), locations_(std::move(other.locations_)) {}
+Program::Program(Program&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), locations_(std::move(other.locations_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(id_, other.id_);
@@ -102,7 +105,9 @@ Program::~Program() {
     if (id_ != 0) glDeleteProgram(id_);
 }
 
-void Program::use() const { glUseProgram(id_); }
+void Program::use() const {
+    glUseProgram(id_);
+}
 
 int Program::uniform(const std::string& name) const {
     const auto [place, isNew] = locations_.try_emplace(name, -1);
@@ -110,17 +115,29 @@ int Program::uniform(const std::string& name) const {
     return place->second;
 }
 
-void Program::set(const std::string& name, int value) const { glUniform1i(uniform(name), value); }
-void Program::set(const std::string& name, float value) const { glUniform1f(uniform(name), value); }
-void Program::set(const std::string& name, const glm::vec2& value) const { glUniform2fv(uniform(name), 1, glm::value_ptr(value)); }
-void Program::set(const std::string& name, const glm::vec3& value) const { glUniform3fv(uniform(name), 1, glm::value_ptr(value)); }
-void Program::set(const std::string& name, const glm::vec4& value) const { glUniform4fv(uniform(name), 1, glm::value_ptr(value)); }
+void Program::set(const std::string& name, int value) const {
+    glUniform1i(uniform(name), value);
+}
+void Program::set(const std::string& name, float value) const {
+    glUniform1f(uniform(name), value);
+}
+void Program::set(const std::string& name, const glm::vec2& value) const {
+    glUniform2fv(uniform(name), 1, glm::value_ptr(value));
+}
+void Program::set(const std::string& name, const glm::vec3& value) const {
+    glUniform3fv(uniform(name), 1, glm::value_ptr(value));
+}
+void Program::set(const std::string& name, const glm::vec4& value) const {
+    glUniform4fv(uniform(name), 1, glm::value_ptr(value));
+}
 void Program::set(const std::string& name, const glm::mat3& value) const {
     glUniformMatrix3fv(uniform(name), 1, GL_FALSE, glm::value_ptr(value));
 }
 void Program::set(const std::string& name, const glm::mat4& value) const {
     glUniformMatrix4fv(uniform(name), 1, GL_FALSE, glm::value_ptr(value));
 }
-void Program::set(const std::string& name, const glm::ivec2& value) const { glUniform2iv(uniform(name), 1, glm::value_ptr(value)); }
+void Program::set(const std::string& name, const glm::ivec2& value) const {
+    glUniform2iv(uniform(name), 1, glm::value_ptr(value));
+}
 
 }  // namespace lobe::gl

@@ -22,13 +22,13 @@ struct ShaderSource {
     std::vector<Place> places;  ///< one a line of text
 };
 
-/// Reads shader files. `#include "brdf/ward.glsl"` is rooted at the library; each file is taken once. Names in
-/// `generated` are taken before files ("generated/material.glsl").
+/// Reads shader files. `#include "brdf/ward.glsl"` is rooted at the library; each file is taken once. Names
+/// in `generated` are taken before files ("generated/material.glsl").
 class ShaderLibrary {
 public:
     explicit ShaderLibrary(std::filesystem::path root);
-    /// The whole text: "#version 330 core", the defines, then `file` with its includes. Throws ShaderError (missing
-    /// file, include cycle or depth) naming file and line.
+    /// The whole text: "#version 330 core", the defines, then `file` with its includes. Throws ShaderError
+    /// (missing file, include cycle or depth) naming file and line.
     ShaderSource source(const std::string& file, const Defines& defines,
                         const std::map<std::string, std::string>& generated = {}) const;
     const std::filesystem::path& root() const { return root_; }
@@ -41,8 +41,8 @@ private:
 class Program {
 public:
     Program() = default;
-    /// Throws ShaderError: "pass/light.frag:41: message", with three lines of source, for each of the driver's lines
-    /// that can be placed.
+    /// Throws ShaderError: "pass/light.frag:41: message", with three lines of source, for each of the
+    /// driver's lines that can be placed.
     Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name);
     Program(Program&&) noexcept;
     Program& operator=(Program&&) noexcept;

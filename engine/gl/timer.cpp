@@ -40,7 +40,9 @@ struct PassTimer::State {
     }
 };
 
-PassTimer::PassTimer(bool reliableTimers) : state_(std::make_unique<State>()) { state_->queries = reliableTimers; }
+PassTimer::PassTimer(bool reliableTimers) : state_(std::make_unique<State>()) {
+    state_->queries = reliableTimers;
+}
 PassTimer::~PassTimer() = default;
 
 void PassTimer::start() {
@@ -48,7 +50,9 @@ void PassTimer::start() {
     state_->add({});
 }
 
-void PassTimer::mark(const std::string& pass) { state_->add(pass); }
+void PassTimer::mark(const std::string& pass) {
+    state_->add(pass);
+}
 
 std::vector<std::pair<std::string, double>> PassTimer::finish() {
     std::vector<std::pair<std::string, double>> times;
@@ -63,7 +67,8 @@ std::vector<std::pair<std::string, double>> PassTimer::finish() {
         const State::Mark& mark = state_->marks[i];
         double milliseconds = millisecondsBetween(state_->marks[i - 1].clock, mark.clock);
         if (state_->queries) {
-            const double measured = (static_cast<double>(stamps[i]) - static_cast<double>(stamps[i - 1])) * 1e-6;
+            const double measured =
+                (static_cast<double>(stamps[i]) - static_cast<double>(stamps[i - 1])) * 1e-6;
             if (measured >= 0.0 && measured < kHour) milliseconds = measured;
         }
         size_t slot = 0;

@@ -14,8 +14,8 @@ public:
     ~PassTimer();
     void start();                        ///< before the first pass
     void mark(const std::string& pass);  ///< after each: closes what ran since the last mark under this name
-    /// Milliseconds per name, summed over marks of the same name, in order of first mark. Waits for the GPU. A value
-    /// that no clock could give (negative, over an hour) is replaced by the wall clock's.
+    /// Milliseconds per name, summed over marks of the same name, in order of first mark. Waits for the GPU.
+    /// A value that no clock could give (negative, over an hour) is replaced by the wall clock's.
     std::vector<std::pair<std::string, double>> finish();
 
 private:
