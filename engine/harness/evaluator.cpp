@@ -72,6 +72,7 @@ gl::Texture uploadInputs(const std::vector<float>& image, int height) {
 void drawInto(const gl::Framebuffer& framebuffer, int results, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     std::vector<GLenum> buffers;
+    buffers.reserve(static_cast<size_t>(results));
     for (int i = 0; i < results; ++i)
         buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
     glDrawBuffers(results, buffers.data());
@@ -123,8 +124,8 @@ Evaluator::Evaluator(const gl::ShaderLibrary& library, Snippet snippet) : snippe
 
 ResultTable Evaluator::evaluate(std::span<const float> inputs) const {
     const auto width = static_cast<size_t>(inputWidth(snippet_));
-    assert(inputs.size() % width == 0);
-    const size_t rows = inputs.size() / width;
+    const size_t rows = width == 0 ? 0 : inputs.size() / width;
+    assert(rows * width == inputs.size());
     ResultTable table{4 * snippet_.results,
                       std::vector<float>(rows * 4 * static_cast<size_t>(snippet_.results))};
     if (rows == 0) return table;
