@@ -62,7 +62,8 @@ LoadReply readLoadReply(Message message) {
     reply.scene = sceneFromBytes(message.blobs[0].bytes());
     reply.pictures = std::move(message.blobs[1]);
     try {
-        for (const json& image : json::parse(message.header).at("images")) {
+        const json header = json::parse(message.header);  // named: it must outlive the loop over its part
+        for (const json& image : header.at("images")) {
             reply.images.push_back({image.at("name").get<std::string>(), image.at("offset").get<size_t>(),
                                     image.at("size").get<size_t>(), image.at("fallback").get<int>()});
         }
