@@ -103,12 +103,14 @@ void checkBufferViews(const Document& document) {
     }
 }
 
-/// What tinygltf gets: no buffers and images, which are read here. It refuses indices without a buffer view,
-/// which glTF allows (they are all zero): those get a view of their own, taken off again afterwards.
+/// What tinygltf gets: nothing that is read here anyway (buffers, images, cameras, lights). It refuses
+/// indices without a buffer view, which glTF allows (they are all zero): those get a view of their own, taken
+/// off again afterwards.
 tinygltf::Model typedModel(const Document& document) {
     json text = document.json;
-    text.erase("buffers");
-    text.erase("images");
+    for (const char* property : {"buffers", "images", "cameras", "extensions"}) {
+        text.erase(property);
+    }
     const size_t viewCount = document.json.value("bufferViews", json::array()).size();
     text["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
     if (text.contains("accessors")) {

@@ -18,7 +18,7 @@ struct Document {
     std::string file;  ///< as messages name it
     std::filesystem::path folder;
     nlohmann::json json;    ///< agrees with gltfSchema(); extensions are read from here
-    tinygltf::Model model;  ///< the same, typed; without buffers and images
+    tinygltf::Model model;  ///< the same, typed; without buffers, images, cameras and lights
     std::deque<std::vector<std::byte>> storage;
     std::vector<std::span<const std::byte>> buffers;  ///< empty where a buffer names no source of its bytes
     ContentHash hash;

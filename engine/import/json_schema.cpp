@@ -197,7 +197,7 @@ private:
 
     [[noreturn]] void fail(const Path& path, const json& value, const std::string& expected) const {
         const std::string where = path.written();
-        refuse(file_, where.empty() ? "the JSON text" : where, shown(value), expected);
+        refuse(file_, where.empty() ? "JSON text" : where, shown(value), expected);
     }
 
     const json& root_;

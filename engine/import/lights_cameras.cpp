@@ -32,7 +32,10 @@ Light readLight(const Document& document, size_t index) {
         light.range = source["range"].get<double>();
     }
     if (light.type == LightType::spot) {
-        const json spot = source.value("spot", json::object());
+        if (!source.contains("spot")) {
+            refuse(document.file, property + ".spot", "missing", "an object, as the light's type says");
+        }
+        const json& spot = source["spot"];
         light.innerConeAngle = spot.value("innerConeAngle", 0.0);
         light.outerConeAngle = spot.value("outerConeAngle", glm::quarter_pi<double>());
         if (light.innerConeAngle >= light.outerConeAngle) {
