@@ -10,6 +10,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kRadians = std::numbers::pi / 180.0;
+
 double aspectOf(const Settings& settings) {
     const json& size = settings.get("resolution");
     return size[0].get<double>() / size[1].get<double>();
@@ -35,13 +37,17 @@ std::pair<Camera, glm::dvec3> basePose(const Scene& scene, const Settings& setti
         fitDepthRange(camera, bounds);
         return {camera, target};
     }
-    if (!azimuth.is_null() || !elevation.is_null())
-        return {framingCamera(bounds, aspectOf(settings), azimuth.is_null() ? 0.0 : azimuth.get<double>(),
-                              elevation.is_null() ? 0.0 : elevation.get<double>()),
-                bounds.center()};
+    Framing framing;
+    framing.fit = settings.get("orbit").get<double>() != 0.0 ? Fit::sphere : Fit::box;
+    if (const json& angle = settings.get("camera_view_angle"); !angle.is_null()) framing.verticalFov = angle.get<double>() * kRadians;
+    if (!azimuth.is_null() || !elevation.is_null()) {
+        framing.azimuthDeg = azimuth.is_null() ? 0.0 : azimuth.get<double>();
+        framing.elevationDeg = elevation.is_null() ? 0.0 : elevation.get<double>();
+        return {framingCamera(bounds, aspectOf(settings), framing), bounds.center()};
+    }
     if (!name.is_null()) return {findCamera(scene, name.get<std::string>()), bounds.center()};
     if (!scene.cameras.empty()) return {scene.cameras.front(), bounds.center()};
-    return {framingCamera(bounds, aspectOf(settings)), bounds.center()};
+    return {framingCamera(bounds, aspectOf(settings), framing), bounds.center()};
 }
 
 }  // namespace
@@ -49,7 +55,7 @@ std::pair<Camera, glm::dvec3> basePose(const Scene& scene, const Settings& setti
 Camera cameraOf(const Scene& scene, const Settings& settings, int frame) {
     auto [camera, pivot] = basePose(scene, settings);
     if (const json& angle = settings.get("camera_view_angle"); !angle.is_null())
-        camera.verticalFov = angle.get<double>() * std::numbers::pi / 180.0;
+        camera.verticalFov = angle.get<double>() * kRadians;
     const double turn = settings.get("orbit").get<double>() * frame / settings.get("frames").get<int>();
     return turn == 0.0 ? camera : orbited(camera, pivot, turn);
 }

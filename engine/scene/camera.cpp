@@ -39,17 +39,31 @@ Camera lookAt(const glm::dvec3& position, const glm::dvec3& focalPoint, double v
     return camera;
 }
 
-Camera framingCamera(const Bounds& bounds, double aspect, double azimuthDeg, double elevationDeg) {
-    const double fov = 45.0 * kRadians;
-    const double halfAngle = std::min(fov * 0.5, std::atan(std::tan(fov * 0.5) * aspect));
-    const double radius = bounds.radius() > 0.0 ? bounds.radius() : 1.0;
-    const double azimuth = azimuthDeg * kRadians;
-    const double elevation = elevationDeg * kRadians;
+Camera framingCamera(const Bounds& bounds, double aspect, const Framing& framing) {
+    const double azimuth = framing.azimuthDeg * kRadians;
+    const double elevation = framing.elevationDeg * kRadians;
     const glm::dvec3 direction(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                                std::cos(azimuth) * std::cos(elevation));
-    const double distance = radius / std::sin(halfAngle);
-    Camera camera = lookAt(bounds.center() + direction * distance, bounds.center(), fov);
+    const glm::dvec3 center = bounds.center();
+    Camera camera = lookAt(center + direction, center, framing.verticalFov);
     camera.name = "framing";
+
+    const glm::dvec2 tangent(std::tan(framing.verticalFov * 0.5) * aspect, std::tan(framing.verticalFov * 0.5));
+    double distance = 0.0;
+    if (framing.fit == Fit::sphere || !(bounds.radius() > 0.0)) {
+        const double radius = bounds.radius() > 0.0 ? bounds.radius() : 1.0;
+        distance = radius / std::sin(std::atan(std::min(tangent.x, tangent.y)));
+    } else {
+        const glm::dmat3 cameraFromWorld = glm::transpose(glm::dmat3(camera.worldFromCamera));
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 point((corner & 1) != 0 ? bounds.upper.x : bounds.lower.x,
+                                   (corner & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                                   (corner & 4) != 0 ? bounds.upper.z : bounds.lower.z);
+            const glm::dvec3 p = cameraFromWorld * (point - center);
+            distance = std::max(distance, p.z + 1.05 * std::max(std::abs(p.x) / tangent.x, std::abs(p.y) / tangent.y));
+        }
+    }
+    camera.worldFromCamera[3] = glm::dvec4(center + direction * distance, 1.0);
     fitDepthRange(camera, bounds);
     return camera;
 }

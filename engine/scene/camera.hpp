@@ -1,6 +1,7 @@
 /// Cameras: framing, orbits, and what a pixel sees.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 
@@ -8,9 +9,19 @@
 
 namespace lobe {
 
+/// What a framing camera must hold: the box as seen from its side, or the sphere about it, which also fits when the
+/// camera orbits.
+enum class Fit : uint8_t { box, sphere };
+
 /// The documented camera of a scene without one: perspective, 45 degrees high, at azimuth 25 and elevation 15 degrees
-/// (0, 0 looks along -Z at the front), at the distance where the bounding sphere just fits.
-Camera framingCamera(const Bounds& bounds, double aspect, double azimuthDeg = 25.0, double elevationDeg = 15.0);
+/// (0, 0 looks along -Z at the front), at the distance where the bounds just fit, with a margin of 5 %.
+struct Framing {
+    double azimuthDeg = 25.0;
+    double elevationDeg = 15.0;
+    double verticalFov = 0.7853981633974483;  ///< radians
+    Fit fit = Fit::box;
+};
+Camera framingCamera(const Bounds& bounds, double aspect, const Framing& framing = {});
 
 /// A camera at `position` that looks at `focalPoint`, +Y up (or -Z up when it looks along Y).
 Camera lookAt(const glm::dvec3& position, const glm::dvec3& focalPoint, double verticalFov);

@@ -69,13 +69,14 @@ TEST(Camera, WindowOfTheFileStaysVisibleInPicturesOfOtherShapes) {
     }
 }
 
-TEST(Camera, FramingHoldsTheBoundingSphereWhole) {
+TEST(Camera, FramingHoldsTheBoundsWholeAndTight) {
     Bounds bounds;
     bounds.add({10, 20, 30});
     bounds.add({14, 21, 28});
     for (const double aspect : {0.4, 1.0, 2.5}) {
         const Camera camera = framingCamera(bounds, aspect);
         const View view = makeView(camera, static_cast<int>(1000 * aspect), 1000);
+        double largest = 0.0;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::dvec3 p(corner & 1 ? bounds.upper.x : bounds.lower.x, corner & 2 ? bounds.upper.y : bounds.lower.y,
                                corner & 4 ? bounds.upper.z : bounds.lower.z);
@@ -83,7 +84,13 @@ TEST(Camera, FramingHoldsTheBoundingSphereWhole) {
             EXPECT_LT(std::abs(clip.x), clip.w);
             EXPECT_LT(std::abs(clip.y), clip.w);
             EXPECT_LT(clip.z, clip.w) << "beyond the near plane";
+            largest = std::max({largest, std::abs(clip.x) / clip.w, std::abs(clip.y) / clip.w});
         }
+        EXPECT_GT(largest, 0.9) << "no larger than needed";
+        const Camera orbiting = framingCamera(bounds, aspect, {.fit = Fit::sphere});
+        const double distance = glm::length(glm::dvec3(orbiting.worldFromCamera[3]) - bounds.center());
+        const double halfAngle = std::atan(std::tan(orbiting.verticalFov / 2) * std::min(1.0, aspect));
+        EXPECT_NEAR(distance * std::sin(halfAngle), bounds.radius(), 1e-9);
     }
 }
 
