@@ -50,13 +50,15 @@ public:
         glfw().windowHint(kDebugContext, request.debug ? kTrue : kFalse);
         window_ = glfw().createWindow(16, 16, "lobe", nullptr, nullptr);
         if (window_ == nullptr) glfw().fail("glfwCreateWindow");
-        makeCurrent();
-        initialise("glfw", "window", procAddress);
+        try {
+            makeCurrent();
+            initialise("glfw", "window", procAddress);
+        } catch (...) {
+            close();
+            throw;
+        }
     }
-    ~GlfwContext() override {
-        if (currentContext() == this) release();
-        glfw().destroyWindow(window_);
-    }
+    ~GlfwContext() override { close(); }
     void makeCurrent() override {
         if (Context* other = currentContext(); other != nullptr && other != this) other->release();
         glfw().makeContextCurrent(window_);
@@ -70,6 +72,10 @@ public:
     }
 
 private:
+    void close() {
+        if (currentContext() == this) release();
+        glfw().destroyWindow(window_);
+    }
     static Proc procAddress(const char* name) { return glfw().getProcAddress(name); }
     GlfwWindow window_ = nullptr;
     bool loaded_ = false;

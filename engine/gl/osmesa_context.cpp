@@ -37,13 +37,15 @@ public:
         context_ = osmesa().createContext(attributes, nullptr);
         if (context_ == nullptr)
             throw ContextError("OSMesaCreateContextAttribs gives no OpenGL 3.3 core context");
-        makeCurrent();
-        initialise("osmesa", "memory", procAddress);
+        try {
+            makeCurrent();
+            initialise("osmesa", "memory", procAddress);
+        } catch (...) {
+            close();
+            throw;
+        }
     }
-    ~OsmesaContext() override {
-        if (currentContext() == this) release();
-        osmesa().destroyContext(context_);
-    }
+    ~OsmesaContext() override { close(); }
     void makeCurrent() override {
         if (Context* other = currentContext(); other != nullptr && other != this) other->release();
         if (osmesa().makeCurrent(context_, buffer_, kUnsignedByte, kSide, kSide) == 0)
@@ -58,6 +60,10 @@ public:
     }
 
 private:
+    void close() {
+        if (currentContext() == this) release();
+        osmesa().destroyContext(context_);
+    }
     static Proc procAddress(const char* name) { return osmesa().getProcAddress(name); }
     static constexpr int kSide = 16;
     OsmesaHandle context_ = nullptr;

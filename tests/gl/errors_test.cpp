@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "drawing.hpp"
+#include "gl/backends.hpp"
 #include "gl/debug.hpp"
 
 namespace lobe::gl {
@@ -134,6 +135,23 @@ TEST_F(NoContextDeathTest, AskedForOneBackendOnlyThatOneIsTried) {
 
 TEST_F(NoContextDeathTest, WithoutEglOsmesaIsTaken) {
     EXPECT_EXIT(createWithoutLibraries({}, "EGL"), testing::ExitedWithCode(0), "made osmesa");
+}
+
+/// Mesa, told to offer OpenGL 3.0 only, as old drivers do; then told nothing, in the same process.
+[[noreturn]] void createOnOldDriver(Backend backend) {
+    setenv("MESA_GL_VERSION_OVERRIDE", "3.0", 1);
+    try {
+        Context::create({.backend = backend});
+    } catch (const ContextError& error) {
+        std::fprintf(stderr, "%s", error.what());
+        std::_Exit(currentContext() == nullptr ? 4 : 1);
+    }
+    std::_Exit(0);
+}
+
+TEST_F(NoContextDeathTest, AnOldDriverIsRefusedAndLeavesNothingCurrent) {
+    EXPECT_EXIT(createOnOldDriver(Backend::egl), testing::ExitedWithCode(4), "no OpenGL 3.3 context; tried ");
+    EXPECT_EXIT(createOnOldDriver(Backend::osmesa), testing::ExitedWithCode(4), "osmesa memory: ");
 }
 
 TEST_F(NoContextDeathTest, ADeviceAskedForWithoutEglSaysWhyThereIsNone) {

@@ -1,4 +1,4 @@
-// A context made by GLFW needs a display: CTest runs this under Xvfb (gl_display); elsewhere without a
+// A context made by GLFW needs a display: CTest runs this under Xvfb (gl.display); elsewhere without a
 // display it is refused with GLFW's own reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ bool hasDisplay() {
 }
 
 TEST(GlfwDisplay, DrawsTheSamePictureAsOsmesaAndTakesTurnsWithIt) {
-    if (!hasDisplay()) GTEST_SKIP() << "no display; CTest's gl_display has one";
+    if (!hasDisplay()) GTEST_SKIP() << "no display; CTest's gl.display has one";
     const auto glfw = Context::create({.backend = Backend::glfw});
     EXPECT_EQ(glfw->info().backend, "glfw");
     const std::vector<float> picture = test::drawPicture();
@@ -30,7 +30,7 @@ TEST(GlfwDisplay, DrawsTheSamePictureAsOsmesaAndTakesTurnsWithIt) {
 }
 
 TEST(GlfwDisplay, IsMadeAndEndedManyTimes) {
-    if (!hasDisplay()) GTEST_SKIP() << "no display; CTest's gl_display has one";
+    if (!hasDisplay()) GTEST_SKIP() << "no display; CTest's gl.display has one";
     for (int i = 0; i < 5; ++i)
         EXPECT_FALSE(Context::create({.backend = Backend::glfw})->info().renderer.empty());
 }
