@@ -4,6 +4,7 @@
 #include "codec/codec.hpp"
 #include "codec/metadata.hpp"
 #include "codec/open_picture.hpp"
+#include "codec/webp.hpp"
 
 namespace lobe::codec {
 namespace {
@@ -42,9 +43,20 @@ int bitmapChannels(const OIIO::ImageSpec& spec) {
     return isNamed(3, "A") ? 4 : 3;
 }
 
+/// 8-bit colour [and alpha] as 0..1, not linearised, as OpenImageIO converts.
+Image asImage(const Bitmap& bitmap) {
+    std::vector<std::string> names = {"R", "G", "B"};
+    if (bitmap.channels == 4) names.emplace_back("A");
+    Image image(bitmap.width, bitmap.height, std::move(names));
+    std::transform(bitmap.data.begin(), bitmap.data.end(), image.values.begin(),
+                   [](std::byte code) { return static_cast<float>(std::to_integer<int>(code)) / 255.0F; });
+    return image;
+}
+
 }  // namespace
 
 Bitmap decode(std::span<const std::byte> fileBytes) {
+    if (formatOf(fileBytes) == Format::webp) return webp::decode(fileBytes);
     OpenPicture picture(fileBytes);
     const OIIO::ImageSpec& spec = picture.spec();
     Bitmap bitmap;
@@ -59,6 +71,7 @@ Bitmap decode(std::span<const std::byte> fileBytes) {
 }
 
 Image read(std::span<const std::byte> fileBytes) {
+    if (formatOf(fileBytes) == Format::webp) return asImage(webp::decode(fileBytes));
     OpenPicture picture(fileBytes);
     const OIIO::ImageSpec& spec = picture.spec();
     Image image(spec.width, spec.height, spec.channelnames);

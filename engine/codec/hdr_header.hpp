@@ -7,6 +7,9 @@
 
 namespace lobe::codec::hdr {
 
+/// The file without comments: OpenImageIO gives up on headers of a hundred lines.
+std::string onlyPixels(Bytes file);
+
 /// What withComment() wrote, or nothing.
 std::string comment(Bytes file);
 

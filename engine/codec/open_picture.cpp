@@ -5,29 +5,16 @@
 #include <new>
 
 #include "base/error.hpp"
-#include "codec/codec.hpp"
 #include "codec/exr_header.hpp"
+#include "codec/hdr_header.hpp"
 #include "codec/jpeg_segments.hpp"
+#include "codec/limits.hpp"
 #include "codec/png_chunks.hpp"
 
 namespace lobe::codec {
 namespace {
 
-constexpr int64_t kMaxComponents = int64_t{1} << 28;
-constexpr int64_t kMaxChannels = 1024;
 constexpr int64_t kSmallTile = 1024;  // a side that tiles may have in pictures that are smaller
-
-void checkSize(int64_t width, int64_t height, int64_t channels) {
-    const auto check = [](const char* property, int64_t value, int64_t most) {
-        if (value >= 1 && value <= most) return;
-        throw InputError(std::string(property) + ": " + std::to_string(value) + "; expected 1 to " +
-                         std::to_string(most));
-    };
-    check("width", width, kMaxSide);
-    check("height", height, kMaxSide);
-    check("channels", channels, kMaxChannels);
-    check("width x height x channels", width * height * channels, kMaxComponents);
-}
 
 /// OpenEXR allocates whole tiles when it opens a file.
 void checkExr(Bytes file) {
@@ -92,6 +79,7 @@ OpenPicture::OpenPicture(Bytes file) {
     const Format format = formatOf(file);
     if (format == Format::exr) checkExr(file);
     if (format == Format::png) reduced_ = png::onlyPixels(file);
+    if (format == Format::hdr) reduced_ = hdr::onlyPixels(file);
     if (format == Format::jpeg) reduced_ = jpeg::onlyPixels(file);
     const Bytes decoded = reduced_.empty() ? file : std::as_bytes(std::span(reduced_));
 

@@ -1,4 +1,4 @@
-/// A picture file in memory, opened by OpenImageIO and found to be of a bearable size.
+/// A picture file in memory (PNG, JPEG, HDR, EXR), opened by OpenImageIO and found to be of a bearable size.
 #pragma once
 
 #include <OpenImageIO/filesystem.h>
