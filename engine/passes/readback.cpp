@@ -5,15 +5,25 @@
 namespace lobe {
 namespace {
 
-/// RGBA float rows of a target, bottom row first as GL counts.
-std::vector<float> readTarget(const Targets& targets, const std::string& channel, int components) {
-    const size_t count = static_cast<size_t>(targets.width()) * static_cast<size_t>(targets.height());
-    std::vector<float> values(count * static_cast<size_t>(components));
+/// Rows of a target, bottom row first as GL counts.
+void readTarget(const Targets& targets, const std::string& channel, int components, float* values) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, targets.single(channel));
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, targets.width(), targets.height(), components == 1 ? GL_RED : GL_RGBA, GL_FLOAT, values.data());
+    glReadPixels(0, 0, targets.width(), targets.height(), components == 1 ? GL_RED : GL_RGBA, GL_FLOAT, values);
+}
+
+std::vector<float> readTarget(const Targets& targets, const std::string& channel, int components) {
+    const size_t count = static_cast<size_t>(targets.width()) * static_cast<size_t>(targets.height());
+    std::vector<float> values(count * static_cast<size_t>(components));
+    readTarget(targets, channel, components, values.data());
     return values;
+}
+
+void turnOver(Image& image) {
+    const size_t row = static_cast<size_t>(image.width) * image.channelCount();
+    for (int y = 0; y < image.height / 2; ++y)
+        std::swap_ranges(image.pixel(0, y), image.pixel(0, y) + row, image.pixel(0, image.height - 1 - y));
 }
 
 /// Copies `count` components of a target into channels of the image from `first` on, turned over.
@@ -74,6 +84,12 @@ Image readPicture(const FramePlan& plan, const Targets& targets, const View& vie
     for (const Layer& layer : layers)
         names.insert(names.end(), layer.channels.begin(), layer.channels.end());
     Image image(targets.width(), targets.height(), names);
+    if (layers.size() == 1 && layers[0].components == static_cast<int>(names.size()) && targets.has(layers[0].target)) {
+        // Radiance alone, as most pictures are: no copy on the way.
+        readTarget(targets, layers[0].target, layers[0].components, image.values.data());
+        turnOver(image);
+        return image;
+    }
     size_t first = 0;
     for (const Layer& layer : layers) {
         // A scene without opaque surfaces has no data AOVs: they stay 0, "nothing is there".

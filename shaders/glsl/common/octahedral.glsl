@@ -9,10 +9,10 @@
 /// Never sign(): it gives 0 at 0.
 vec2 octahedral_sign(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
 
-/// Into [-1, 1]^2.
+/// Into [-1, 1]^2. Only the direction of n counts; the zero vector is taken as +z.
 vec2 octahedral_encode(vec3 n)
 {
-    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 p = n.xy / max(abs(n.x) + abs(n.y) + abs(n.z), 1e-37);
     return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * octahedral_sign(p);
 }
 

@@ -40,7 +40,7 @@ void main()
     vec3 ambient = vec3(0.0);
 #ifndef UNLIT
 #ifdef OUT_NORMAL
-    oNormal = gbuffer_encode_normal(surface_normal());
+    oNormal = gbuffer_encode_normal(surface_normal_direction());
 #endif
     MODEL_PARAMS params = surface_params();
     gbuffer_write_params(params);

@@ -10,25 +10,24 @@ in vec3 vNormal;
 in vec4 vTangent;
 #endif
 
-/// v / |v|, or `fallback` where v is too short to have a direction. The largest component is divided out first, as
-/// squares of lengths below 1e-16 flush to zero.
-vec3 surface_normalize(vec3 v, vec3 fallback)
+/// The shading normal's direction in world axes, on the side that is seen; not unit, and zero where vertex normals
+/// cancel out.
+vec3 surface_normal_direction()
 {
-    float m = max(max(abs(v.x), abs(v.y)), abs(v.z));
-    return m > 0.0 ? normalize(v / m) : fallback;
-}
-
-/// The unit shading normal in world axes, on the side that is seen.
-vec3 surface_normal()
-{
-    vec3 n = surface_normalize(vNormal, vec3(0.0, 0.0, 1.0));
+    vec3 n = vNormal;
 #ifdef NORMAL_MAP
-    // MikkTSpace: tangent and bitangent are used as interpolated, only the normal's length is divided out.
+    // MikkTSpace: normal, tangent and bitangent are used as interpolated, not made unit again.
     vec3 texel = surface_normal_texel();
-    vec3 bitangent = vTangent.w * cross(n, vTangent.xyz);
-    n = surface_normalize(vTangent.xyz * texel.x + bitangent * texel.y + n * texel.z, n);
+    n = vTangent.xyz * texel.x + (vTangent.w * cross(vNormal, vTangent.xyz)) * texel.y + vNormal * texel.z;
 #endif
     return gl_FrontFacing ? n : -n;
+}
+
+vec3 surface_normal()
+{
+    vec3 n = surface_normal_direction();
+    float length2 = dot(n, n);
+    return length2 > 1e-12 ? n * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
 }
 
 #ifdef USES_TANGENT

@@ -36,13 +36,20 @@ out vec2 vUv1;
 out vec4 vColor;
 #endif
 
+/// v / |v|, or zero. The largest component is divided out first: squares of lengths below 1e-16 flush to zero.
+vec3 surface_unit(vec3 v)
+{
+    float m = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    return m > 0.0 ? normalize(v / m) : vec3(0.0);
+}
+
 void main()
 {
     vec4 position = uRelativeFromLocal * vec4(aPosition, 1.0);
     vPosition = position.xyz;
-    vNormal = uNormalFromLocal * aNormal;
+    vNormal = surface_unit(uNormalFromLocal * aNormal);
 #ifdef TANGENTS
-    vTangent = vec4(mat3(uRelativeFromLocal) * aTangent.xyz, aTangent.w);
+    vTangent = vec4(surface_unit(mat3(uRelativeFromLocal) * aTangent.xyz), aTangent.w);
 #endif
 #ifdef UV0
     vUv0 = aUv0;
