@@ -335,7 +335,7 @@ class CommandLine(unittest.TestCase):
         if os.geteuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "tmpfs", disk], capture_output=True).returncode:
             self.skipTest("a small file system can only be mounted as root")
         try:
-            self.render("--aov", "radiance,position", "--exr-precision=float", "-r", 512, 512, "--camera-azimuth=40", "-o", "disk/x.exr", expect=7)
+            self.lobe("render", self.scene, "--aov", "radiance,position", "--exr-precision=float", "-r", 512, 512, "--camera-azimuth=40", "-o", "disk/x.exr", expect=7)
             self.assertEqual(list(disk.iterdir()), [])
         finally:
             subprocess.run(["umount", disk], check=True)
