@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "codec/codec.hpp"
 #include "codec/metadata.hpp"
+#include "codec/open_image_io.hpp"
 
 namespace lobe::codec {
 namespace {
@@ -17,6 +18,7 @@ constexpr float kLargestRgbe = 1e38F;  // the shared exponent ends at 2^127
 
 std::string encodeWithLibrary(Format format, const OIIO::ImageSpec& spec, OIIO::TypeDesc given,
                               const void* pixels) {
+    setUpOpenImageIo();
     const std::string name = openImageIoName(format);
     const auto output = OIIO::ImageOutput::create(name);
     if (!output) throw OutputError("OpenImageIO was built without " + name);
@@ -92,6 +94,8 @@ std::string encodeExr(const Image& image, const WriteOptions& options) {
     spec.channelnames = image.channels;
     if (half) spec.channelformats = halfWhereItFits(image);
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime",
+                   "");  // else the time of day is written, and equal pictures make different files
     for (const auto& [key, value] : options.metadata)
         spec.attribute(key, value);
     return encodeWithLibrary(Format::exr, spec, OIIO::TypeDesc::FLOAT, image.values.data());

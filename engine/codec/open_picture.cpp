@@ -1,7 +1,6 @@
 #include "codec/open_picture.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <new>
 
 #include "base/error.hpp"
@@ -9,6 +8,7 @@
 #include "codec/hdr_header.hpp"
 #include "codec/jpeg_segments.hpp"
 #include "codec/limits.hpp"
+#include "codec/open_image_io.hpp"
 #include "codec/png_chunks.hpp"
 
 namespace lobe::codec {
@@ -63,19 +63,10 @@ bool guarded(const Call& call) {
     }
 }
 
-/// Each thread reserves address space, which the worker has little of.
-void limitThreads() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        OIIO::attribute("threads", 1);
-        OIIO::attribute("exr_threads", -1);  // none but the caller
-    });
-}
-
 }  // namespace
 
 OpenPicture::OpenPicture(Bytes file) {
-    limitThreads();
+    setUpOpenImageIo();
     const Format format = formatOf(file);
     if (format == Format::exr) checkExr(file);
     if (format == Format::png) reduced_ = png::onlyPixels(file);

@@ -16,19 +16,19 @@ void push(std::vector<float>& data, const glm::dvec3& xyz, double w) {
 }
 
 void pushLight(std::vector<float>& data, const Light& light, const glm::dvec3& eye) {
-    const double inverseRange2 = light.range ? 1.0 / (*light.range * *light.range) : 0.0;
+    const double invRange2 = inverseRange2(light.range);
     switch (light.type) {
         case LightType::directional:
             push(data, -light.direction, 0.0);
             push(data, light.intensity, 0.0);
             break;
         case LightType::point:
-            push(data, light.position - eye, inverseRange2);
+            push(data, light.position - eye, invRange2);
             push(data, light.intensity, 0.0);
             break;
         case LightType::spot: {
             const SpotScaleOffset cone = spotScaleOffset(light.innerConeAngle, light.outerConeAngle);
-            push(data, light.position - eye, inverseRange2);
+            push(data, light.position - eye, invRange2);
             push(data, light.intensity, cone.scale);
             push(data, light.direction, cone.offset);
             break;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/resources.hpp"
+#include "gl/debug.hpp"
 #include "gl/objects.hpp"
 #include "gl/timer.hpp"
 #include "passes/pass.hpp"
@@ -55,6 +56,7 @@ struct Renderer::State {
               inputs(*scene, plan),
               resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
             for (const PlannedPass& planned : plan.passes) {
+                const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
                 pass->prepare();
                 if (planned.name == "aov")
@@ -137,6 +139,11 @@ const FramePlan& Renderer::plan() const { return state_->current->plan; }
 
 Picture Renderer::render(const Camera& camera) {
     State::SceneState& current = *state_->current;
+    const gl::DebugScope frameScope("rendering " + current.scene->name);
+    const auto run = [](Pass& pass, const View& view) {
+        const gl::DebugScope scope(pass.name());
+        pass.run(view);
+    };
     const RenderOptions& options = current.options;
     const auto start = std::chrono::steady_clock::now();
     gl::PassTimer timer(state_->capabilities.reliableTimers);
@@ -152,8 +159,8 @@ Picture Renderer::render(const Camera& camera) {
     // With several samples, data AOVs need a frame of their own at the pixel centres.
     if (current.data && current.plan.samples > 1) {
         for (const auto& pass : current.frame)
-            if (pass->name() == "gbuffer") pass->run(center);
-        current.data->run(center);
+            if (pass->name() == "gbuffer") run(*pass, center);
+        run(*current.data, center);
         mark("aov");
     }
     if (current.accumulate) state_->clearAccumulated();
@@ -164,16 +171,16 @@ Picture Renderer::render(const Camera& camera) {
         mark("lights");
         state_->clearPictures();
         for (const auto& pass : current.frame) {
-            pass->run(view);
+            run(*pass, view);
             mark(pass->name());
         }
         if (current.accumulate) {
-            current.accumulate->run(view);
+            run(*current.accumulate, view);
             mark("accumulate");
         }
     }
     if (current.data && current.plan.samples == 1) {
-        current.data->run(center);
+        run(*current.data, center);
         mark("aov");
     }
     Picture picture;

@@ -89,6 +89,6 @@ FramePlan planFrame(const SceneSummary& summary, const Quality& quality, const C
                     const AovSet& aovs = {Aov::radiance});
 
 std::string toText(const FramePlan& plan);  ///< for `lobe plan`
-std::string toJson(const FramePlan& plan);  ///< schema: docs/plan.schema.json; key "schema": 1
+std::string toJson(const FramePlan& plan);  ///< schema: docs/plan.md; key "schema": 1
 
 }  // namespace lobe
