@@ -156,7 +156,20 @@ const std::vector<std::string>& supportedExtensions() {
 }
 
 void Document::warn(const std::string& property, const std::string& message) {
-    warnings.push_back(property + ": " + message);
+    constexpr size_t kMostWarnings = 100;
+    if (warnings.size() < kMostWarnings) {
+        warnings.push_back(property + ": " + message);
+    } else {
+        ++furtherWarnings;
+    }
+}
+
+std::vector<std::string> Document::allWarnings() const {
+    std::vector<std::string> all = warnings;
+    if (furtherWarnings > 0) {
+        all.push_back("and " + std::to_string(furtherWarnings) + " more warnings");
+    }
+    return all;
 }
 
 std::span<const std::byte> Document::viewBytes(size_t bufferView) const {

@@ -23,8 +23,11 @@ struct Document {
     std::vector<std::span<const std::byte>> buffers;  ///< empty where a buffer names no source of its bytes
     ContentHash hash;
     std::vector<std::string> warnings;
+    size_t furtherWarnings = 0;
 
+    /// Keeps the first hundred; allWarnings() says how many there were beyond.
     void warn(const std::string& property, const std::string& message);
+    std::vector<std::string> allWarnings() const;
 
     /// The bytes of a buffer view; throws InputError if its buffer has no source.
     std::span<const std::byte> viewBytes(size_t bufferView) const;

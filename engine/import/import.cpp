@@ -52,7 +52,7 @@ public:
         readAmbient();
         warnOfRepairs();
         scene.contentHash = document_.hash.hex();
-        scene.warnings = std::move(document_.warnings);
+        scene.warnings = document_.allWarnings();
         return std::move(result_);
     }
 

@@ -209,7 +209,16 @@ CEREAL_SETUP_ARCHIVE_TRAITS(lobe::scene_archive::MemoryInput, lobe::scene_archiv
 namespace lobe {
 
 std::vector<std::byte> toBytes(const Scene& scene) {
+    // Nearly all of a scene is vertices: room for them at once saves copying as the bytes grow.
+    size_t vertexBytes = 0;
+    for (const Primitive& p : scene.primitives) {
+        vertexBytes += p.positions.size() * sizeof(glm::vec3) + p.normals.size() * sizeof(glm::vec3) +
+                       p.tangents.size() * sizeof(glm::vec4) + p.uvs[0].size() * sizeof(glm::vec2) +
+                       p.uvs[1].size() * sizeof(glm::vec2) + p.colors.size() * sizeof(glm::vec4) +
+                       p.indices.size() * sizeof(uint32_t) + sizeof(Primitive);
+    }
     std::vector<std::byte> bytes;
+    bytes.reserve(vertexBytes);
     scene_archive::MemoryOutput archive(bytes);
     archive(scene);
     return bytes;

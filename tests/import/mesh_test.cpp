@@ -108,6 +108,17 @@ TEST(Mesh, LeavesOutPointsLinesAndBodiless) {
                             HasSubstr("not drawn"), HasSubstr("no POSITION"), HasSubstr("nothing to draw")));
 }
 
+TEST(Mesh, ManyWarningsAreCounted) {
+    Gltf gltf;
+    const json lines = {{"attributes", {{"POSITION", gltf.floats(kTrianglePositions, "VEC3")}}}, {"mode", 1}};
+    for (int i = 0; i < 104; ++i) {
+        gltf.show(lines);
+    }
+    const std::vector<std::string> warnings = gltf.import().scene.warnings;
+    EXPECT_EQ(warnings.size(), 101U);
+    EXPECT_EQ(warnings.back(), "and 5 more warnings");
+}
+
 TEST(Mesh, ReadsInterleavedAttributes) {
     Gltf gltf;
     std::vector<float> both;
