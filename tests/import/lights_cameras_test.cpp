@@ -74,7 +74,7 @@ TEST(Lights, DamageIsRefused) {
     EXPECT_THAT(withLight({{"type", "point"}, {"intensity", -1}}).refusal(), HasSubstr("intensity: -1"));
     EXPECT_THAT(withLight({{"type", "point"}, {"range", 0}}).refusal(), HasSubstr("range: 0"));
     EXPECT_THAT(withLight({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}}}}).refusal(),
-                HasSubstr("spot.innerConeAngle: 1; expected less than outerConeAngle"));
+                HasSubstr("spot.innerConeAngle: 1; expected at most outerConeAngle"));
     EXPECT_THAT(withLight({{"type", "spot"}}).refusal(), HasSubstr("lights[0].spot: missing; expected"));
     EXPECT_THAT(withLight({{"type", "spot"}, {"spot", {{"outerConeAngle", 2}}}}).refusal(),
                 HasSubstr("outerConeAngle: 2"));
