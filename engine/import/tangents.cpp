@@ -161,16 +161,17 @@ private:
         while (!pending_.empty()) {
             const uint32_t triangle = pending_.back();
             pending_.pop_back();
-            uint32_t corner = 3 * triangle;
-            while (corner < 3 * triangle + 3 && places_[corner] != places_[start]) {
+            const uint32_t first = 3 * triangle;
+            uint32_t corner = first;
+            while (corner < first + 3 && places_[corner] != places_[start]) {
                 ++corner;
             }
-            if (corner == 3 * triangle + 3 || groupOf[corner] != kNone) {
+            if (corner == first + 3 || groupOf[corner] != kNone) {
                 continue;
             }
             Facet& facet = facets_[triangle];
-            if (facet.joinsAny && groupOf[3 * triangle] == kNone && groupOf[3 * triangle + 1] == kNone &&
-                groupOf[3 * triangle + 2] == kNone) {
+            if (facet.joinsAny && groupOf[first] == kNone && groupOf[first + 1] == kNone &&
+                groupOf[first + 2] == kNone) {
                 facet.mirrored = group.mirrored;
             }
             if (facet.mirrored != group.mirrored) {

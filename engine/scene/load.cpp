@@ -4,7 +4,7 @@
 #include <array>
 #include <atomic>
 #include <exception>
-#include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "base/error.hpp"
@@ -86,9 +86,15 @@ struct SceneLoader::Workers {
                                std::vector<std::string>& warnings) {
         std::vector<Bitmap> bitmaps(reply.images.size());
         std::vector<std::exception_ptr> failures(reply.images.size());
+        std::vector<size_t> order(
+            bitmaps.size());  // the largest first, so that neither thread ends long after the other
+        std::iota(order.begin(), order.end(), size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](size_t a, size_t b) { return reply.images[a].size > reply.images[b].size; });
         std::atomic<size_t> next{0};
         const auto work = [&](ImageFiles& decoder) {
-            for (size_t i = next++; i < bitmaps.size(); i = next++) {
+            for (size_t n = next++; n < order.size(); n = next++) {
+                const size_t i = order[n];
                 try {
                     bitmaps[i] =
                         decoder.decode(bytesOf(reply, reply.images[i]), file + ": " + reply.images[i].name);

@@ -209,7 +209,16 @@ TEST(HostileFiles, AManyPartsMeshOnOneVertexEnds) {
     EXPECT_TRUE(isSound(scene));
 }
 
-/// Sends a signal to each child process of this one that serves scenes.
+/// 'Z' for a process that has ended and is not yet waited for.
+char stateOf(pid_t process) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const size_t name = text.rfind(") ");
+    return name == std::string::npos ? 'Z' : text.at(name + 2);
+}
+
+/// Sends a signal to each child process of this one that serves scenes; killed ones have ended when this
+/// returns.
 int signalSceneWorkers(int signal) {
     int reached = 0;
     std::ifstream children("/proc/self/task/" + std::to_string(getpid()) + "/children");
@@ -218,6 +227,9 @@ int signalSceneWorkers(int signal) {
         std::getline(std::ifstream("/proc/" + std::to_string(child) + "/comm"), name);
         if (name.starts_with("lobe-scene")) {
             reached += kill(child, signal) == 0 ? 1 : 0;
+            while (signal == SIGKILL && stateOf(child) != 'Z') {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
         }
     }
     return reached;
