@@ -10,10 +10,13 @@
 namespace lobe::bench {
 namespace {
 
-bool isInteger(const Channel& channel) { return channel.format.ends_with("UI"); }
+bool isInteger(const Channel& channel) {
+    return channel.format.ends_with("UI");
+}
 
 /// Reads every channel that the pass reads once, and writes every one that it writes.
-std::string floorShader(const FramePlan& plan, const PlannedPass& pass, const std::vector<std::string>& colors) {
+std::string floorShader(const FramePlan& plan, const PlannedPass& pass,
+                        const std::vector<std::string>& colors) {
     std::string uniforms, outputs, body = "    float sum = 0.0;\n";
     for (size_t i = 0; i < pass.reads.size(); ++i) {
         const std::string n = std::to_string(i);
@@ -32,8 +35,8 @@ std::string floorShader(const FramePlan& plan, const PlannedPass& pass, const st
 
 }  // namespace
 
-std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::ContextInfo& info, int width, int height,
-                                         int runs) {
+std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::ContextInfo& info, int width,
+                                         int height, int runs) {
     const Targets targets(plan, width, height);
     const gl::ShaderLibrary library(shaderDirectory());
     const gl::VertexArray empty = gl::VertexArray::make();
@@ -45,11 +48,14 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
         const bool geometry = pass.name == "gbuffer";
         std::vector<std::string> colors = pass.writes;
         std::erase(colors, "depth");
-        const std::map<std::string, std::string> generated = {{"generated/floor.frag", floorShader(plan, pass, colors)}};
-        const gl::Program program(library.source("pass/screen.vert", {}), library.source("generated/floor.frag", {}, generated), "floor");
+        const std::map<std::string, std::string> generated = {
+            {"generated/floor.frag", floorShader(plan, pass, colors)}};
+        const gl::Program program(library.source("pass/screen.vert", {}),
+                                  library.source("generated/floor.frag", {}, generated), "floor");
         double best = 1e30;
         for (int run = 0; run < runs; ++run) {
-            glBindFramebuffer(GL_FRAMEBUFFER, geometry ? targets.gbuffer() : targets.lighting(colors.front()));
+            glBindFramebuffer(GL_FRAMEBUFFER,
+                              geometry ? targets.gbuffer() : targets.lighting(colors.front()));
             program.use();
             program.set("uFarDepth", 0.5f);
             for (size_t i = 0; i < pass.reads.size(); ++i) {
@@ -61,7 +67,8 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
             gl::PassTimer timer(info.reliableTimers);
             timer.start();
             if (geometry) {
-                // What the G-buffer pass does beside drawing belongs to its floor: clearing depth, writing it.
+                // What the G-buffer pass does beside drawing belongs to its floor: clearing depth, writing
+                // it.
                 glEnable(GL_DEPTH_TEST);
                 glDepthMask(GL_TRUE);
                 glDepthFunc(GL_ALWAYS);

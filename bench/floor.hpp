@@ -10,6 +10,7 @@
 namespace lobe::bench {
 
 /// Milliseconds of each pass's floor, the least of `runs` runs.
-std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::ContextInfo& info, int width, int height, int runs);
+std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::ContextInfo& info, int width,
+                                         int height, int runs);
 
 }  // namespace lobe::bench

@@ -17,7 +17,9 @@
 namespace lobe::bench {
 namespace {
 
-double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
+double least(const std::vector<double>& values) {
+    return *std::min_element(values.begin(), values.end());
+}
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -28,13 +30,14 @@ struct Result {
     std::string scene;
     size_t triangles = 0;
     int lights = 0;
-    double frame = 0.0;                                        ///< ms, median
-    std::vector<std::pair<std::string, double>> passes;        ///< ms, least: other programs only ever add
-    std::map<std::string, double> floors;                      ///< ms, least
+    double frame = 0.0;                                  ///< ms, median
+    std::vector<std::pair<std::string, double>> passes;  ///< ms, least: other programs only ever add
+    std::map<std::string, double> floors;                ///< ms, least
 };
 
 Result measure(gl::Context& context, Scene scene, int width, int height, int frames) {
-    Camera camera = scene.cameras.empty() ? framingCamera(scene.bounds(), static_cast<double>(width) / height) : scene.cameras[0];
+    Camera camera = scene.cameras.empty() ? framingCamera(scene.bounds(), static_cast<double>(width) / height)
+                                          : scene.cameras[0];
     addDefaultLight(scene, camera);
     Result result{scene.name, scene.triangleCount(), static_cast<int>(scene.lights.size()), 0.0, {}, {}};
     RenderOptions options;
@@ -64,14 +67,15 @@ Result measure(gl::Context& context, Scene scene, int width, int height, int fra
 }
 
 void print(const Result& result) {
-    std::printf("%-16s %8zu triangles %6d lights   frame %8.2f ms\n", result.scene.c_str(), result.triangles, result.lights, result.frame);
+    std::printf("%-16s %8zu triangles %6d lights   frame %8.2f ms\n", result.scene.c_str(), result.triangles,
+                result.lights, result.frame);
     for (const auto& [pass, milliseconds] : result.passes) {
         const auto floor = result.floors.find(pass);
         if (floor == result.floors.end())
             std::printf("    %-20s %8.2f ms\n", pass.c_str(), milliseconds);
         else
-            std::printf("    %-20s %8.2f ms   floor %7.2f ms   %6.2f x\n", pass.c_str(), milliseconds, floor->second,
-                        milliseconds / floor->second);
+            std::printf("    %-20s %8.2f ms   floor %7.2f ms   %6.2f x\n", pass.c_str(), milliseconds,
+                        floor->second, milliseconds / floor->second);
     }
     std::fflush(stdout);
 }
@@ -86,7 +90,11 @@ nlohmann::json toJson(const Result& result) {
         }
         passes.push_back(entry);
     }
-    return {{"scene", result.scene}, {"triangles", result.triangles}, {"lights", result.lights}, {"frame_ms", result.frame}, {"passes", passes}};
+    return {{"scene", result.scene},
+            {"triangles", result.triangles},
+            {"lights", result.lights},
+            {"frame_ms", result.frame},
+            {"passes", passes}};
 }
 
 int run(int argc, char** argv) {
@@ -102,8 +110,9 @@ int run(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
 
     const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
-    std::printf("%s, %s, %dx%d, passes: least of %d frames, frame: median, one sample a pixel\n", context->info().renderer.c_str(),
-                context->info().version.c_str(), resolution[0], resolution[1], frames);
+    std::printf("%s, %s, %dx%d, passes: least of %d frames, frame: median, one sample a pixel\n",
+                context->info().renderer.c_str(), context->info().version.c_str(), resolution[0],
+                resolution[1], frames);
     std::vector<Result> results;
     const auto add = [&](Scene scene) {
         results.push_back(measure(*context, std::move(scene), resolution[0], resolution[1], frames));
@@ -123,7 +132,10 @@ int run(int argc, char** argv) {
         std::printf("    frame against one light's: %.2f x\n", results.back().frame / one);
     }
     if (!json.empty()) {
-        nlohmann::json report = {{"schema", 1}, {"renderer", context->info().renderer}, {"resolution", resolution}, {"results", nlohmann::json::array()}};
+        nlohmann::json report = {{"schema", 1},
+                                 {"renderer", context->info().renderer},
+                                 {"resolution", resolution},
+                                 {"results", nlohmann::json::array()}};
         for (const Result& result : results)
             report["results"].push_back(toJson(result));
         std::ofstream(json) << report.dump(2) << '\n';

@@ -33,7 +33,8 @@ ClusterGrid::ClusterGrid(const View& view, double nearZ, double farZ)
         for (int row = 0; row < rows_; ++row)
             for (int column = 0; column < columns_; ++column)
                 bounds_.push_back(boundOf(column, row, slice));
-    const auto plane = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& inside) {
+    const auto plane = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                          const glm::dvec3& inside) {
         glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
         if (glm::dot(normal, inside - a) < 0.0) normal = -normal;
         return glm::dvec4(normal, -glm::dot(normal, a));
@@ -41,8 +42,8 @@ ClusterGrid::ClusterGrid(const View& view, double nearZ, double farZ)
     // A border of columns or rows is the plane through two points of it at different depths and heights.
     for (int i = 0; i <= columns_; ++i) {
         const double x = i * kTile;
-        columnPlanes_.push_back(plane(pointAt(x, 0, nearZ_), pointAt(x, 0, farZ_), pointAt(x, view.height, farZ_),
-                                      pointAt(x + kTile, 0, farZ_)));
+        columnPlanes_.push_back(plane(pointAt(x, 0, nearZ_), pointAt(x, 0, farZ_),
+                                      pointAt(x, view.height, farZ_), pointAt(x + kTile, 0, farZ_)));
     }
     for (int i = 0; i <= rows_; ++i) {
         const double y = i * kTile;
@@ -61,7 +62,9 @@ int ClusterGrid::sliceOf(double z) const {
     return std::clamp(static_cast<int>(std::log2(z / nearZ_) * kSlices / logRatio_), 0, kSlices - 1);
 }
 
-double ClusterGrid::sliceStart(int slice) const { return nearZ_ * std::exp2(logRatio_ * slice / kSlices); }
+double ClusterGrid::sliceStart(int slice) const {
+    return nearZ_ * std::exp2(logRatio_ * slice / kSlices);
+}
 
 glm::dvec3 ClusterGrid::pointAt(double x, double y, double z) const {
     return view_.rayOrigin + x * view_.rayOriginDx + y * view_.rayOriginDy +
@@ -103,26 +106,32 @@ ClusterLists ClusterGrid::assign(std::span<const LightVolume> lights, uint32_t f
     for (size_t l = 0; l < lights.size(); ++l) {
         const LightVolume& light = lights[l];
         const double z = glm::dot(light.center, view_.forward);
-        // Points behind the eye are in no cluster; the first and last slice also hold what lies outside the range.
+        // Points behind the eye are in no cluster; the first and last slice also hold what lies outside the
+        // range.
         if (z + light.radius <= 0.0 && !view_.orthographic) continue;
         const int slice0 = sliceOf((z - light.radius) * (1.0 - kSliceSlack));
         const int slice1 = sliceOf((z + light.radius) * (1.0 + kSliceSlack));
-        // Behind the eye the side planes of a perspective view swap sides: such lights take every column and row.
+        // Behind the eye the side planes of a perspective view swap sides: such lights take every column and
+        // row.
         const bool around = !view_.orthographic && z - light.radius <= 0.0;
         const auto [c0, c1] = around ? std::pair(0, columns_ - 1) : span(columnPlanes_, light, columns_);
         const auto [r0, r1] = around ? std::pair(0, rows_ - 1) : span(rowPlanes_, light, rows_);
         for (int slice = slice0; slice <= slice1; ++slice)
             for (int row = r0; row <= r1; ++row)
                 for (int column = c0; column <= c1; ++column) {
-                    const size_t cluster = (static_cast<size_t>(slice) * static_cast<size_t>(rows_) + static_cast<size_t>(row)) *
-                                               static_cast<size_t>(columns_) + static_cast<size_t>(column);
-                    const bool open = slice == 0 || slice == kSlices - 1;  // no bound: may hold anything beyond
+                    const size_t cluster =
+                        (static_cast<size_t>(slice) * static_cast<size_t>(rows_) + static_cast<size_t>(row)) *
+                            static_cast<size_t>(columns_) +
+                        static_cast<size_t>(column);
+                    const bool open =
+                        slice == 0 || slice == kSlices - 1;  // no bound: may hold anything beyond
                     const Sphere& bound = bounds_[cluster];
                     if (!open && (glm::length(bound.center - light.center) > bound.radius + light.radius ||
                                   !coneTouches(light, bound.center, bound.radius)))
                         continue;
                     lists[cluster].push_back(firstIndex + static_cast<uint32_t>(l));
-                    tileUsed[static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column)] = 1;
+                    tileUsed[static_cast<size_t>(row) * static_cast<size_t>(columns_) +
+                             static_cast<size_t>(column)] = 1;
                 }
     }
     ClusterLists result;
@@ -134,7 +143,8 @@ ClusterLists ClusterGrid::assign(std::span<const LightVolume> lights, uint32_t f
     }
     for (int row = 0; row < rows_; ++row)
         for (int column = 0; column < columns_; ++column)
-            if (tileUsed[static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column)])
+            if (tileUsed[static_cast<size_t>(row) * static_cast<size_t>(columns_) +
+                         static_cast<size_t>(column)])
                 result.tiles.emplace_back(column, row);
     return result;
 }

@@ -1,5 +1,5 @@
-/// Light lists by cluster, made on the CPU (Olsson, Billeter, Assarsson, "Clustered deferred and forward shading", HPG
-/// 2012): tiles of 64 x 64 pixels, sliced in depth with equal ratios.
+/// Light lists by cluster, made on the CPU (Olsson, Billeter, Assarsson, "Clustered deferred and forward
+/// shading", HPG 2012): tiles of 64 x 64 pixels, sliced in depth with equal ratios.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace lobe {
 struct LightVolume {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 axis{0.0};         ///< of the cone, unit
-    double coneAngle = 0.0;       ///< half angle, radians; 0: the whole sphere
+    glm::dvec3 axis{0.0};    ///< of the cone, unit
+    double coneAngle = 0.0;  ///< half angle, radians; 0: the whole sphere
 };
 
 struct ClusterLists {
@@ -38,7 +38,8 @@ public:
     /// The shader's slice = clamp(log2(z) * x + y, 0, z - 1).
     glm::vec3 sliceFactors() const;
 
-    /// Conservative: a light that reaches any point of a cluster is in its list. `firstIndex` is added to each index.
+    /// Conservative: a light that reaches any point of a cluster is in its list. `firstIndex` is added to
+    /// each index.
     ClusterLists assign(std::span<const LightVolume> lights, uint32_t firstIndex) const;
 
 private:

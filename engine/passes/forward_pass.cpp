@@ -13,7 +13,8 @@ void ForwardPass::prepare() {
     opaque_.variants.clear();
     blended_.variants.clear();
     for (const Variant& variant : planned_.variants) {
-        const bool blend = plan().surfaces[static_cast<size_t>(variant.surface)].alphaMode == AlphaMode::blend;
+        const bool blend =
+            plan().surfaces[static_cast<size_t>(variant.surface)].alphaMode == AlphaMode::blend;
         (blend ? blended_ : opaque_).variants.push_back(variant);
     }
     resources().surfaces.prepare(opaque_);
@@ -28,17 +29,17 @@ void ForwardPass::draw(const View& view, bool blended) {
     } else {
         glDisable(GL_BLEND);
     }
-    resources().surfaces.draw(blended ? blended_ : opaque_, view,
-                              blended ? SurfaceOrder::backToFront : SurfaceOrder::byProgram,
-                              [&](const gl::Program& program) {
-                                  program.set("uForward", glm::vec3(view.forward));
-                                  program.set("uRayDirection", glm::vec3(view.rayDirection));
-                                  program.set("uRayDirectionDx", glm::vec3(view.rayDirectionDx));
-                                  program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
-                                  const auto ambient = resources().scene.ambientRadiance.value_or(glm::dvec3(0.0));
-                                  program.set("uAmbientRadiance", glm::vec3(ambient));
-                                  resources().lights.bind(program, kFirstLightUnit);
-                              });
+    resources().surfaces.draw(
+        blended ? blended_ : opaque_, view, blended ? SurfaceOrder::backToFront : SurfaceOrder::byProgram,
+        [&](const gl::Program& program) {
+            program.set("uForward", glm::vec3(view.forward));
+            program.set("uRayDirection", glm::vec3(view.rayDirection));
+            program.set("uRayDirectionDx", glm::vec3(view.rayDirectionDx));
+            program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
+            const auto ambient = resources().scene.ambientRadiance.value_or(glm::dvec3(0.0));
+            program.set("uAmbientRadiance", glm::vec3(ambient));
+            resources().lights.bind(program, kFirstLightUnit);
+        });
 }
 
 void ForwardPass::run(const View& view) {

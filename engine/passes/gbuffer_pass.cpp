@@ -2,11 +2,14 @@
 
 namespace lobe {
 
-void GbufferPass::prepare() { resources().surfaces.prepare(planned_); }
+void GbufferPass::prepare() {
+    resources().surfaces.prepare(planned_);
+}
 
 void GbufferPass::run(const View& view) {
     glBindFramebuffer(GL_FRAMEBUFFER, targets().gbuffer());
-    // Only what is read where no surface is drawn needs clearing: depth, and radiance where it is among the targets.
+    // Only what is read where no surface is drawn needs clearing: depth, and radiance where it is among the
+    // targets.
     glClearDepth(plan().reversedDepth ? 0.0 : 1.0);
     glClearStencil(0);
     glDepthMask(GL_TRUE);
@@ -15,7 +18,8 @@ void GbufferPass::run(const View& view) {
     const float black[] = {0.0f, 0.0f, 0.0f, 0.0f};
     for (size_t i = 0; i < plan().gbufferTargets.size(); ++i) {
         const std::string& target = plan().gbufferTargets[i];
-        if (target == "radiance" || target.starts_with("contribution.")) glClearBufferfv(GL_COLOR, static_cast<GLint>(i), black);
+        if (target == "radiance" || target.starts_with("contribution."))
+            glClearBufferfv(GL_COLOR, static_cast<GLint>(i), black);
     }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(plan().reversedDepth ? GL_GREATER : GL_LESS);
@@ -26,7 +30,8 @@ void GbufferPass::run(const View& view) {
     }
     resources().surfaces.draw(planned_, view, SurfaceOrder::byProgram, [&](const gl::Program& program) {
         program.set("uForward", glm::vec3(view.forward));
-        program.set("uAmbientRadiance", glm::vec3(resources().scene.ambientRadiance.value_or(glm::dvec3(0.0))));
+        program.set("uAmbientRadiance",
+                    glm::vec3(resources().scene.ambientRadiance.value_or(glm::dvec3(0.0))));
     });
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);

@@ -24,7 +24,8 @@ const std::array<float, 256>& srgbTable() {
 
 float component(const Bitmap& bitmap, size_t index) {
     switch (bitmap.type) {
-        case ComponentType::u8: return static_cast<float>(std::to_integer<unsigned>(bitmap.data[index])) / 255.0f;
+        case ComponentType::u8:
+            return static_cast<float>(std::to_integer<unsigned>(bitmap.data[index])) / 255.0f;
         case ComponentType::u16: {
             uint16_t value;
             std::memcpy(&value, bitmap.data.data() + index * 2, 2);
@@ -41,8 +42,9 @@ float component(const Bitmap& bitmap, size_t index) {
 
 GLenum internalFormatOf(int channels, int bits, bool srgb) {
     static const std::map<std::pair<int, int>, GLenum> formats = {
-        {{1, 8}, GL_R8},    {{2, 8}, GL_RG8},    {{4, 8}, GL_RGBA8},   {{1, 16}, GL_R16},  {{2, 16}, GL_RG16},
-        {{4, 16}, GL_RGBA16}, {{1, 32}, GL_R32F}, {{2, 32}, GL_RG32F}, {{4, 32}, GL_RGBA32F}};
+        {{1, 8}, GL_R8},    {{2, 8}, GL_RG8},    {{4, 8}, GL_RGBA8},
+        {{1, 16}, GL_R16},  {{2, 16}, GL_RG16},  {{4, 16}, GL_RGBA16},
+        {{1, 32}, GL_R32F}, {{2, 32}, GL_RG32F}, {{4, 32}, GL_RGBA32F}};
     return srgb ? static_cast<GLenum>(GL_SRGB8_ALPHA8) : formats.at({channels, bits});
 }
 
@@ -56,15 +58,19 @@ void store(TexelData& texels, size_t index, float value) {
             std::memcpy(texels.data.data() + index * 2, &code, 2);
             break;
         }
-        default: std::memcpy(texels.data.data() + index * 4, &value, 4);
+        default:
+            std::memcpy(texels.data.data() + index * 4, &value, 4);
     }
 }
 
 GLint wrapOf(Wrap wrap) {
     switch (wrap) {
-        case Wrap::repeat: return GL_REPEAT;
-        case Wrap::mirroredRepeat: return GL_MIRRORED_REPEAT;
-        case Wrap::clampToEdge: break;
+        case Wrap::repeat:
+            return GL_REPEAT;
+        case Wrap::mirroredRepeat:
+            return GL_MIRRORED_REPEAT;
+        case Wrap::clampToEdge:
+            break;
     }
     return GL_CLAMP_TO_EDGE;
 }
@@ -72,9 +78,12 @@ GLint wrapOf(Wrap wrap) {
 GLint minifyOf(const Sampler& sampler) {
     const bool linear = sampler.minify == Filter::linear;
     switch (sampler.mip) {
-        case MipFilter::none: return linear ? GL_LINEAR : GL_NEAREST;
-        case MipFilter::nearest: return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
-        case MipFilter::linear: break;
+        case MipFilter::none:
+            return linear ? GL_LINEAR : GL_NEAREST;
+        case MipFilter::nearest:
+            return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+        case MipFilter::linear:
+            break;
     }
     return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
@@ -130,16 +139,17 @@ GLuint GpuTextures::imageTexture(int image, bool srgb) {
     const Bitmap& bitmap = scene_.images[static_cast<size_t>(image)];
     const int largest = std::max(bitmap.width, bitmap.height);
     if (largest > capabilities_.maxTextureSize)
-        throw InputError(scene_.file + ": images[" + std::to_string(image) + "]: " + std::to_string(bitmap.width) + "x" +
-                         std::to_string(bitmap.height) + " pixels; expected at most " +
-                         std::to_string(capabilities_.maxTextureSize) + " a side, the driver's limit");
+        throw InputError(scene_.file + ": images[" + std::to_string(image) +
+                         "]: " + std::to_string(bitmap.width) + "x" + std::to_string(bitmap.height) +
+                         " pixels; expected at most " + std::to_string(capabilities_.maxTextureSize) +
+                         " a side, the driver's limit");
     const TexelData texels = texelsFor(bitmap, srgb, bits_, !capabilities_.softwareRasteriser);
     gl::Texture texture = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture.id());
     const GLenum format = texels.channels == 1 ? GL_RED : texels.channels == 2 ? GL_RG : GL_RGBA;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(texels.internalFormat), bitmap.width, bitmap.height, 0, format,
-                 texels.type, texels.data.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(texels.internalFormat), bitmap.width, bitmap.height, 0,
+                 format, texels.type, texels.data.data());
     if (texels.channels <= 2) {
         // Grey stands for equal red, green and blue; the second channel, if any, is alpha.
         const GLint alpha = texels.channels == 2 ? GL_GREEN : GL_ONE;
@@ -157,7 +167,8 @@ GLuint GpuTextures::samplerObject(const Sampler& sampler) {
     glSamplerParameteri(object.id(), GL_TEXTURE_WRAP_S, wrapOf(sampler.wrapS));
     glSamplerParameteri(object.id(), GL_TEXTURE_WRAP_T, wrapOf(sampler.wrapT));
     glSamplerParameteri(object.id(), GL_TEXTURE_MIN_FILTER, minifyOf(sampler));
-    glSamplerParameteri(object.id(), GL_TEXTURE_MAG_FILTER, sampler.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST);
+    glSamplerParameteri(object.id(), GL_TEXTURE_MAG_FILTER,
+                        sampler.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST);
     samplers_.emplace_back(sampler, std::move(object));
     return samplers_.back().second.id();
 }

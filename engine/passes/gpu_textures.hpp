@@ -1,4 +1,5 @@
-/// A scene's images as OpenGL textures, in the format that the plan's quality and the driver's accuracy ask for.
+/// A scene's images as OpenGL textures, in the format that the plan's quality and the driver's accuracy ask
+/// for.
 #pragma once
 
 #include <map>
@@ -14,21 +15,22 @@ namespace lobe {
 /// Texels ready for upload.
 struct TexelData {
     GLenum internalFormat = 0;
-    GLenum type = 0;      ///< GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_FLOAT
-    int channels = 0;     ///< 1, 2 or 4, as stored in `data`
+    GLenum type = 0;   ///< GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_FLOAT
+    int channels = 0;  ///< 1, 2 or 4, as stored in `data`
     std::vector<std::byte> data;
 };
 
-/// Converts a bitmap for filtering at `bits` a component. sRGB texels stay encoded only at 8 bits and only where
-/// `exactSrgbDecode` (hardware); llvmpipe's decode is off by up to 2.5 % in the darks, so they are decoded here.
+/// Converts a bitmap for filtering at `bits` a component. sRGB texels stay encoded only at 8 bits and only
+/// where `exactSrgbDecode` (hardware); llvmpipe's decode is off by up to 2.5 % in the darks, so they are
+/// decoded here.
 TexelData texelsFor(const Bitmap& bitmap, bool srgb, int bits, bool exactSrgbDecode);
 
 class GpuTextures {
 public:
     GpuTextures(const Scene& scene, int bits, const Capabilities& capabilities);
 
-    /// Binds a texture slot of a material to a unit; uploads its image at first use. Throws InputError if the driver's
-    /// largest texture is smaller.
+    /// Binds a texture slot of a material to a unit; uploads its image at first use. Throws InputError if the
+    /// driver's largest texture is smaller.
     void bind(int unit, const TextureSlot& slot, bool srgb);
 
 private:

@@ -98,8 +98,8 @@ void LightBuffers::updateClusters(const View& view) {
         tileBuffers_[type] = gl::Buffer::make();
         glBindVertexArray(tiles_[type].id());
         glBindBuffer(GL_ARRAY_BUFFER, tileBuffers_[type].id());
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lists.tiles.size() * sizeof(glm::vec2)), lists.tiles.data(),
-                     GL_STREAM_DRAW);
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lists.tiles.size() * sizeof(glm::vec2)),
+                     lists.tiles.data(), GL_STREAM_DRAW);
         glEnableVertexAttribArray(0);
         glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
         glVertexAttribDivisor(0, 1);

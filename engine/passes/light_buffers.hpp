@@ -22,7 +22,8 @@ public:
     /// Positions are made relative to the eye in double and sent; cluster lists are made anew.
     void update(const View& view);
 
-    /// Texture units from `firstUnit` on, and every light uniform that the program uses, for all lights of its types.
+    /// Texture units from `firstUnit` on, and every light uniform that the program uses, for all lights of
+    /// its types.
     void bind(const gl::Program& program, int firstUnit) const;
 
     int count(LightType type) const { return static_cast<int>(lights_[static_cast<size_t>(type)].size()); }

@@ -33,7 +33,8 @@ void LightPass::run(const View& view) {
         if (variant.defines.contains("TILES")) {
             const LightBuffers& lights = resources().lights;
             if (lights.tileCount(type_) > 0)
-                resources().inputs.drawTiles(shader, targets(), lights.tileArray(type_), lights.tileCount(type_));
+                resources().inputs.drawTiles(shader, targets(), lights.tileArray(type_),
+                                             lights.tileCount(type_));
             continue;
         }
         const int count = resources().lights.globalCount(type_);

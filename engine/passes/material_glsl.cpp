@@ -10,14 +10,19 @@ constexpr const char* kSwizzle = "rgba";
 
 std::string glslType(const Parameter& parameter) {
     switch (parameter.kind) {
-        case ParameterKind::rgb: return "vec3";
-        case ParameterKind::choice: return "int";
-        case ParameterKind::scalar: break;
+        case ParameterKind::rgb:
+            return "vec3";
+        case ParameterKind::choice:
+            return "int";
+        case ParameterKind::scalar:
+            break;
     }
     return "float";
 }
 
-std::string uniformName(const Parameter& parameter) { return "uParam_" + parameter.glslName; }
+std::string uniformName(const Parameter& parameter) {
+    return "uParam_" + parameter.glslName;
+}
 
 /// Includes the model and gives it the names that the passes call it by.
 std::string modelAliases(const Brdf& brdf) {
@@ -41,7 +46,8 @@ std::string sampleFunctions(const SurfaceFeatures& features) {
         std::string coordinate = uv;
         if (features.samples[i].transformed) {
             text += "uniform vec3 uUvRow" + n + "[2];\n";
-            coordinate = "vec2(dot(uUvRow" + n + "[0], vec3(" + uv + ", 1.0)), dot(uUvRow" + n + "[1], vec3(" + uv + ", 1.0)))";
+            coordinate = "vec2(dot(uUvRow" + n + "[0], vec3(" + uv + ", 1.0)), dot(uUvRow" + n +
+                         "[1], vec3(" + uv + ", 1.0)))";
         }
         text += "vec4 surface_sample" + n + "() { return texture(uSample" + n + ", " + coordinate + "); }\n";
     }
@@ -50,7 +56,8 @@ std::string sampleFunctions(const SurfaceFeatures& features) {
 
 std::string alphaFunction(const SurfaceFeatures& features) {
     if (features.alphaMode == AlphaMode::opaque) return {};
-    std::string text = "uniform float uAlpha;\nuniform float uAlphaCutoff;\nfloat surface_alpha() { return uAlpha";
+    std::string text =
+        "uniform float uAlpha;\nuniform float uAlphaCutoff;\nfloat surface_alpha() { return uAlpha";
     if (const SurfaceTexture* texture = features.texture("alpha")) text += " * " + fetch(*texture) + ".a";
     if (features.vertexColors) text += " * vColor.a";
     return text + "; }\n";
@@ -59,21 +66,25 @@ std::string alphaFunction(const SurfaceFeatures& features) {
 std::string emissionFunction(const SurfaceFeatures& features) {
     if (features.brdf == kUnlit) {
         std::string text = "uniform vec3 uUnlitColor;\nvec3 surface_emission() { return uUnlitColor";
-        if (const SurfaceTexture* texture = features.texture("baseColor")) text += " * " + fetch(*texture) + ".rgb";
+        if (const SurfaceTexture* texture = features.texture("baseColor"))
+            text += " * " + fetch(*texture) + ".rgb";
         if (features.vertexColors) text += " * vColor.rgb";
         return text + "; }\n";
     }
     if (!features.emission) return "vec3 surface_emission() { return vec3(0.0); }\n";
     std::string text = "uniform vec3 uEmission;\nvec3 surface_emission() { return uEmission";
-    if (const SurfaceTexture* texture = features.texture("emission")) text += " * " + fetch(*texture) + ".rgb";
+    if (const SurfaceTexture* texture = features.texture("emission"))
+        text += " * " + fetch(*texture) + ".rgb";
     return text + "; }\n";
 }
 
 std::string occlusionAndNormal(const SurfaceFeatures& features) {
     std::string text;
     if (const SurfaceTexture* texture = features.texture("occlusion"))
-        text += "uniform float uOcclusionStrength;\nfloat surface_occlusion() { return 1.0 + uOcclusionStrength * (" +
-                fetch(*texture) + ".r - 1.0); }\n";
+        text +=
+            "uniform float uOcclusionStrength;\nfloat surface_occlusion() { return 1.0 + uOcclusionStrength "
+            "* (" +
+            fetch(*texture) + ".r - 1.0); }\n";
     else
         text += "float surface_occlusion() { return 1.0; }\n";
     if (const SurfaceTexture* texture = features.texture("normal"))
@@ -89,7 +100,8 @@ std::string parameterFunction(const Brdf& brdf, const SurfaceFeatures& features)
         std::string value = uniformName(parameter);
         if (const SurfaceTexture* texture = features.texture(parameter.name)) {
             value += " * " + fetch(*texture) + ".";
-            value += parameter.kind == ParameterKind::rgb ? std::string("rgb") : std::string(1, kSwizzle[texture->channel]);
+            value += parameter.kind == ParameterKind::rgb ? std::string("rgb")
+                                                          : std::string(1, kSwizzle[texture->channel]);
         }
         if (features.vertexColors && parameter.name == brdf.baseColorParameter) value += " * vColor.rgb";
         body += "    p." + parameter.glslName + " = " + value + ";\n";
@@ -98,7 +110,8 @@ std::string parameterFunction(const Brdf& brdf, const SurfaceFeatures& features)
 }
 
 std::string componentsOf(const Parameter& parameter, int first) {
-    return std::string(kSwizzle).substr(static_cast<size_t>(first), static_cast<size_t>(parameter.components()));
+    return std::string(kSwizzle).substr(static_cast<size_t>(first),
+                                        static_cast<size_t>(parameter.components()));
 }
 
 std::string gbufferWriteFunction(const FramePlan& plan, const Brdf& brdf) {
@@ -109,8 +122,8 @@ std::string gbufferWriteFunction(const FramePlan& plan, const Brdf& brdf) {
         for (const ParameterPlace& place : planned->perPixel) {
             const Parameter& parameter = brdf.parameters[static_cast<size_t>(place.parameter)];
             targets.insert(place.target);
-            body += "    oParameters" + std::to_string(place.target) + "." + componentsOf(parameter, place.component) +
-                    " = p." + parameter.glslName + ";\n";
+            body += "    oParameters" + std::to_string(place.target) + "." +
+                    componentsOf(parameter, place.component) + " = p." + parameter.glslName + ";\n";
         }
     std::string outputs, clears;
     for (int target : targets) {
@@ -141,7 +154,8 @@ std::string surfaceMaterialGlsl(const FramePlan& plan, const SurfaceFeatures& fe
     if (features.brdf == kUnlit) return text;
     const Brdf& brdf = requireBrdf(features.brdf);
     text = modelAliases(brdf) + text + parameterFunction(brdf, features);
-    if (writesGbuffer(plan, features)) text += "#ifdef GBUFFER\n" + gbufferWriteFunction(plan, brdf) + "#endif\n";
+    if (writesGbuffer(plan, features))
+        text += "#ifdef GBUFFER\n" + gbufferWriteFunction(plan, brdf) + "#endif\n";
     return text;
 }
 
@@ -161,8 +175,8 @@ std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& planned
     }
     std::string fetches;
     for (int target : targets)
-        fetches += "    vec4 g" + std::to_string(target) + " = texelFetch(uParameters" + std::to_string(target) +
-                   ", gbuffer_pixel(), 0);\n";
+        fetches += "    vec4 g" + std::to_string(target) + " = texelFetch(uParameters" +
+                   std::to_string(target) + ", gbuffer_pixel(), 0);\n";
     if (!planned.perMaterial.empty()) {
         fetches += "    int row = int(texelFetch(uMaterialId, gbuffer_pixel(), 0).x - 1u) * " +
                    std::to_string(materialTableStride(plan)) + ";\n";
@@ -178,7 +192,8 @@ std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& planned
             body += "    p." + parameter.glslName + " = " + glslType(parameter) + "(" + value + ");\n";
         }
         for (int t = 0; t < texels; ++t)
-            fetches += "    vec4 m" + std::to_string(t) + " = texelFetch(uMaterials, row + " + std::to_string(t) + ");\n";
+            fetches += "    vec4 m" + std::to_string(t) + " = texelFetch(uMaterials, row + " +
+                       std::to_string(t) + ");\n";
     }
     for (int index = 0; index < static_cast<int>(brdf.parameters.size()); ++index) {
         if (elsewhere.contains(index)) continue;
@@ -186,7 +201,8 @@ std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& planned
         text += "uniform " + glslType(parameter) + " " + uniformName(parameter) + ";\n";
         body += "    p." + parameter.glslName + " = " + uniformName(parameter) + ";\n";
     }
-    return text + "MODEL_PARAMS gbuffer_read_params()\n{\n    MODEL_PARAMS p;\n" + fetches + body + "    return p;\n}\n";
+    return text + "MODEL_PARAMS gbuffer_read_params()\n{\n    MODEL_PARAMS p;\n" + fetches + body +
+           "    return p;\n}\n";
 }
 
 int materialTableStride(const FramePlan& plan) {

@@ -10,8 +10,12 @@ void setParameters(const gl::Program& program, const Brdf& brdf, std::span<const
             case ParameterKind::rgb:
                 program.set(name, glm::vec3(values[offset], values[offset + 1], values[offset + 2]));
                 break;
-            case ParameterKind::scalar: program.set(name, static_cast<float>(values[offset])); break;
-            case ParameterKind::choice: program.set(name, static_cast<int>(values[offset])); break;
+            case ParameterKind::scalar:
+                program.set(name, static_cast<float>(values[offset]));
+                break;
+            case ParameterKind::choice:
+                program.set(name, static_cast<int>(values[offset]));
+                break;
         }
         offset += static_cast<size_t>(parameter.components());
     }

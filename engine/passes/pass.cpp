@@ -14,7 +14,8 @@ std::unique_ptr<Pass> makePass(const PlannedPass& planned, FrameResources& resou
     if (planned.name == "coverage") return std::make_unique<CoveragePass>(planned, resources);
     if (planned.name == "light.directional")
         return std::make_unique<LightPass>(planned, resources, LightType::directional);
-    if (planned.name == "light.point") return std::make_unique<LightPass>(planned, resources, LightType::point);
+    if (planned.name == "light.point")
+        return std::make_unique<LightPass>(planned, resources, LightType::point);
     if (planned.name == "light.spot") return std::make_unique<LightPass>(planned, resources, LightType::spot);
     if (planned.name == "forward") return std::make_unique<ForwardPass>(planned, resources);
     if (planned.name == "accumulate") return std::make_unique<AccumulatePass>(planned, resources);

@@ -10,7 +10,8 @@ const gl::Program& ProgramCache::get(const std::string& vertex, const std::strin
     const std::string key = vertex + "\n" + name + "\n" + material;
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
     const std::map<std::string, std::string> generated = {{"generated/material.glsl", material}};
-    gl::Program program(library_.source(vertex, defines, generated), library_.source(fragment, defines, generated), name);
+    gl::Program program(library_.source(vertex, defines, generated),
+                        library_.source(fragment, defines, generated), name);
     return programs_.emplace(key, std::move(program)).first->second;
 }
 

@@ -1,4 +1,5 @@
-/// Compiled programs, kept as long as the context: a scene that needs the same variant again gets the same program.
+/// Compiled programs, kept as long as the context: a scene that needs the same variant again gets the same
+/// program.
 #pragma once
 
 #include <map>
@@ -12,7 +13,8 @@ class ProgramCache {
 public:
     explicit ProgramCache(gl::ShaderLibrary library) : library_(std::move(library)) {}
 
-    /// `material` becomes "generated/material.glsl". The reference stays valid for the cache's life. Throws ShaderError.
+    /// `material` becomes "generated/material.glsl". The reference stays valid for the cache's life. Throws
+    /// ShaderError.
     const gl::Program& get(const std::string& vertex, const std::string& fragment, const gl::Defines& defines,
                            const std::string& material);
 

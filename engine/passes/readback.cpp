@@ -10,7 +10,8 @@ void readTarget(const Targets& targets, const std::string& channel, int componen
     glBindFramebuffer(GL_READ_FRAMEBUFFER, targets.single(channel));
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, targets.width(), targets.height(), components == 1 ? GL_RED : GL_RGBA, GL_FLOAT, values);
+    glReadPixels(0, 0, targets.width(), targets.height(), components == 1 ? GL_RED : GL_RGBA, GL_FLOAT,
+                 values);
 }
 
 std::vector<float> readTarget(const Targets& targets, const std::string& channel, int components) {
@@ -38,9 +39,9 @@ void place(Image& image, size_t first, size_t count, const std::vector<float>& v
 }
 
 struct Layer {
-    std::string target;               ///< of Targets; empty: the sum of the contributions
+    std::string target;  ///< of Targets; empty: the sum of the contributions
     std::vector<std::string> channels;
-    int components;                   ///< as stored: 1 or 4
+    int components;  ///< as stored: 1 or 4
 };
 
 std::vector<Layer> layersOf(const FramePlan& plan, const AovSet& aovs) {
@@ -84,7 +85,8 @@ Image readPicture(const FramePlan& plan, const Targets& targets, const View& vie
     for (const Layer& layer : layers)
         names.insert(names.end(), layer.channels.begin(), layer.channels.end());
     Image image(targets.width(), targets.height(), names);
-    if (layers.size() == 1 && layers[0].components == static_cast<int>(names.size()) && targets.has(layers[0].target)) {
+    if (layers.size() == 1 && layers[0].components == static_cast<int>(names.size()) &&
+        targets.has(layers[0].target)) {
         // Radiance alone, as most pictures are: no copy on the way.
         readTarget(targets, layers[0].target, layers[0].components, image.values.data());
         turnOver(image);
@@ -95,15 +97,16 @@ Image readPicture(const FramePlan& plan, const Targets& targets, const View& vie
         // A scene without opaque surfaces has no data AOVs: they stay 0, "nothing is there".
         if (targets.has(layer.target)) {
             const bool sum = layer.channels[0] == "R" && !plan.contributionTargets.empty();
-            const std::vector<float> values =
-                sum ? summedContributions(plan, targets) : readTarget(targets, layer.target, layer.components);
+            const std::vector<float> values = sum ? summedContributions(plan, targets)
+                                                  : readTarget(targets, layer.target, layer.components);
             place(image, first, layer.channels.size(), values, static_cast<size_t>(layer.components));
             if (layer.channels[0] == "position.X")
                 for (size_t i = 0; i < image.pixelCount(); ++i) {
                     float* pixel = image.values.data() + i * image.channelCount() + first;
                     const size_t row = i / static_cast<size_t>(image.width);
-                    const size_t source = (static_cast<size_t>(image.height) - 1 - row) * static_cast<size_t>(image.width) +
-                                          i % static_cast<size_t>(image.width);
+                    const size_t source =
+                        (static_cast<size_t>(image.height) - 1 - row) * static_cast<size_t>(image.width) +
+                        i % static_cast<size_t>(image.width);
                     if (values[source * 4 + 3] == 0.0f) continue;
                     for (int c = 0; c < 3; ++c)
                         pixel[c] = static_cast<float>(static_cast<double>(pixel[c]) + view.eye[c]);

@@ -13,8 +13,8 @@
 namespace lobe {
 namespace {
 
-/// Sample i of n within the pixel, relative to its centre: the R2 sequence (Roberts 2018), stratified and the same in
-/// every pixel. One sample is the centre.
+/// Sample i of n within the pixel, relative to its centre: the R2 sequence (Roberts 2018), stratified and the
+/// same in every pixel. One sample is the centre.
 glm::dvec2 jitter(int index, int count) {
     if (count == 1) return glm::dvec2(0.0);
     const double g = 1.32471795724474602596;
@@ -45,8 +45,8 @@ struct Renderer::State {
 
     /// All that belongs to one scene and one set of options.
     struct SceneState {
-        SceneState(std::shared_ptr<const Scene> sceneToDraw, const RenderOptions& renderOptions, FramePlan framePlan,
-                   const Capabilities& capabilities, ProgramCache& programs)
+        SceneState(std::shared_ptr<const Scene> sceneToDraw, const RenderOptions& renderOptions,
+                   FramePlan framePlan, const Capabilities& capabilities, ProgramCache& programs)
             : scene(std::move(sceneToDraw)),
               options(renderOptions),
               plan(std::move(framePlan)),
@@ -86,7 +86,8 @@ struct Renderer::State {
         for (const std::string& name : plan.contributionTargets)
             pictures.push_back("contribution." + name);
         for (const std::string& picture : pictures) {
-            if (std::find(plan.gbufferTargets.begin(), plan.gbufferTargets.end(), picture) != plan.gbufferTargets.end())
+            if (std::find(plan.gbufferTargets.begin(), plan.gbufferTargets.end(), picture) !=
+                plan.gbufferTargets.end())
                 continue;  // cleared with the G-buffer
             glBindFramebuffer(GL_FRAMEBUFFER, current->targets.single(picture));
             glClearBufferfv(GL_COLOR, 0, black);
@@ -130,12 +131,14 @@ Renderer::~Renderer() = default;
 void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options) {
     FramePlan plan = planFrame(summarise(*scene), options.quality, state_->capabilities, options.aovs);
     state_->current.reset();
-    state_->current =
-        std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan), state_->capabilities, state_->programs);
+    state_->current = std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan),
+                                                          state_->capabilities, state_->programs);
     gl::checkErrors("setting up the scene");
 }
 
-const FramePlan& Renderer::plan() const { return state_->current->plan; }
+const FramePlan& Renderer::plan() const {
+    return state_->current->plan;
+}
 
 Picture Renderer::render(const Camera& camera) {
     State::SceneState& current = *state_->current;

@@ -4,7 +4,9 @@
 
 namespace lobe {
 
-void CoveragePass::prepare() { program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {}); }
+void CoveragePass::prepare() {
+    program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
+}
 
 void CoveragePass::run(const View&) {
     glBindFramebuffer(GL_FRAMEBUFFER, targets().lighting("radiance"));
@@ -14,7 +16,9 @@ void CoveragePass::run(const View&) {
     resources().inputs.clearMask();
 }
 
-void AccumulatePass::prepare() { program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {}); }
+void AccumulatePass::prepare() {
+    program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
+}
 
 void AccumulatePass::run(const View&) {
     program_->use();

@@ -26,11 +26,13 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
         glBindSampler(static_cast<GLuint>(unit), 0);
         program.set(uniform, unit++);
     };
-    attach("uDepth", GL_TEXTURE_2D, targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
+    attach("uDepth", GL_TEXTURE_2D,
+           targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
     if (targets.has("normal")) attach("uNormal", GL_TEXTURE_2D, targets.texture("normal"));
     if (targets.has("material")) attach("uMaterialId", GL_TEXTURE_2D, targets.texture("material"));
     for (int i = 0; targets.has("parameters" + std::to_string(i)); ++i)
-        attach("uParameters" + std::to_string(i), GL_TEXTURE_2D, targets.texture("parameters" + std::to_string(i)));
+        attach("uParameters" + std::to_string(i), GL_TEXTURE_2D,
+               targets.texture("parameters" + std::to_string(i)));
     if (materials_.texture) attach("uMaterials", GL_TEXTURE_BUFFER, materials_.texture.id());
 
     program.set("uDepthToZ", glm::vec4(view.depthToZ));
@@ -45,7 +47,8 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
         const Primitive& primitive = scene_.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene_.materials[static_cast<size_t>(primitive.material)];
         if (material.brdf != brdf.name || material.alphaMode == AlphaMode::blend) continue;
-        // Parameters that reach the shader as uniforms are the same for all; any material of the model will do.
+        // Parameters that reach the shader as uniforms are the same for all; any material of the model will
+        // do.
         setParameters(program, requireBrdf(brdf.name), material.values);
         break;
     }

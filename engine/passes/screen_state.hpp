@@ -14,9 +14,10 @@ class ScreenInputs {
 public:
     ScreenInputs(const Scene& scene, const FramePlan& plan);
 
-    /// Sets the G-buffer's samplers, the view and the parameters that are the same for all the model's materials.
-    /// Uses texture units from 0; returns the first free one.
-    int bind(const gl::Program& program, const Targets& targets, const View& view, const PlannedBrdf& brdf) const;
+    /// Sets the G-buffer's samplers, the view and the parameters that are the same for all the model's
+    /// materials. Uses texture units from 0; returns the first free one.
+    int bind(const gl::Program& program, const Targets& targets, const View& view,
+             const PlannedBrdf& brdf) const;
 
     /// Draws only where a surface was stored, and only the model's pixels if the scene has several.
     void setMask(const PlannedBrdf* brdf) const;
@@ -25,7 +26,8 @@ public:
     /// One triangle over all; the program must be made with pass/screen.vert.
     void drawScreen(const gl::Program& program) const;
     /// The same, tile by tile.
-    void drawTiles(const gl::Program& program, const Targets& targets, const gl::VertexArray& tiles, int count) const;
+    void drawTiles(const gl::Program& program, const Targets& targets, const gl::VertexArray& tiles,
+                   int count) const;
 
 private:
     float farDepth() const { return plan_.reversedDepth ? 0.0f : 1.0f; }

@@ -19,7 +19,8 @@ struct AttributeArray {
     size_t bytes;
 };
 
-/// Planes of the view frustum in relative space, positive inside; reversed depth has no far plane when infinite.
+/// Planes of the view frustum in relative space, positive inside; reversed depth has no far plane when
+/// infinite.
 std::vector<glm::dvec4> frustumPlanes(const View& view) {
     const glm::dmat4 rows = glm::transpose(view.clipFromRelative);
     std::vector<glm::dvec4> planes = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
@@ -61,11 +62,14 @@ void setUvTransform(const gl::Program& program, const std::string& name, const T
 
 SurfaceDraws::SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capabilities& capabilities,
                            ProgramCache& programs)
-    : scene_(scene), plan_(plan), programs_(programs), textures_(scene, plan.quality.textureBits, capabilities) {
+    : scene_(scene),
+      plan_(plan),
+      programs_(programs),
+      textures_(scene, plan.quality.textureBits, capabilities) {
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
-        const SurfaceFeatures features =
-            surfaceFeatures(scene.materials[static_cast<size_t>(primitive.material)], primitive, plan.ambient);
+        const SurfaceFeatures features = surfaceFeatures(
+            scene.materials[static_cast<size_t>(primitive.material)], primitive, plan.ambient);
         const auto found = std::find(plan.surfaces.begin(), plan.surfaces.end(), features);
         surfaceOfInstance_.push_back(static_cast<int>(found - plan.surfaces.begin()));
     }
@@ -77,7 +81,8 @@ const SurfaceDraws::Geometry& SurfaceDraws::geometry(int index) {
     const Material& material = scene_.materials[static_cast<size_t>(primitive.material)];
     const SurfaceFeatures features = surfaceFeatures(material, primitive, plan_.ambient);
     const bool lit = features.brdf != kUnlit;
-    const bool tangents = features.texture("normal") != nullptr || (lit && requireBrdf(features.brdf).traits.usesTangent);
+    const bool tangents =
+        features.texture("normal") != nullptr || (lit && requireBrdf(features.brdf).traits.usesTangent);
 
     std::vector<AttributeArray> arrays;
     const auto add = [&arrays](GLuint location, GLint components, const auto& values, bool wanted) {
@@ -100,13 +105,16 @@ const SurfaceDraws::Geometry& SurfaceDraws::geometry(int index) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(total), nullptr, GL_STATIC_DRAW);
     size_t offset = 0;
     for (const AttributeArray& array : arrays) {
-        glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(array.bytes), array.data);
+        glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(array.bytes),
+                        array.data);
         glEnableVertexAttribArray(array.location);
-        glVertexAttribPointer(array.location, array.components, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(offset));
+        glVertexAttribPointer(array.location, array.components, GL_FLOAT, GL_FALSE, 0,
+                              reinterpret_cast<const void*>(offset));
         offset += array.bytes;
     }
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, result.indices.id());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(primitive.indices.size() * sizeof(uint32_t)),
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(primitive.indices.size() * sizeof(uint32_t)),
                  primitive.indices.data(), GL_STATIC_DRAW);
     result.indexCount = static_cast<GLsizei>(primitive.indices.size());
 
@@ -127,8 +135,9 @@ const Variant* SurfaceDraws::variantOf(const PlannedPass& pass, int surface) con
 const gl::Program& SurfaceDraws::program(const PlannedPass& pass, const Variant& variant) {
     const gl::Program*& slot = compiled_[&variant];
     if (slot == nullptr)
-        slot = &programs_.get("pass/surface.vert", pass.program, variant.defines,
-                              surfaceMaterialGlsl(plan_, plan_.surfaces[static_cast<size_t>(variant.surface)]));
+        slot =
+            &programs_.get("pass/surface.vert", pass.program, variant.defines,
+                           surfaceMaterialGlsl(plan_, plan_.surfaces[static_cast<size_t>(variant.surface)]));
     return *slot;
 }
 
@@ -150,7 +159,8 @@ void SurfaceDraws::useMaterial(const gl::Program& shader, const Variant& variant
         const TextureSlot& slot = slotOf(material, texture.slot);
         textures_.bind(texture.sample, slot, slotIsSrgb(material, texture.slot));
         shader.set("uSample" + std::to_string(texture.sample), texture.sample);
-        if (features.samples[sample].transformed) setUvTransform(shader, "uUvRow" + std::to_string(texture.sample), slot);
+        if (features.samples[sample].transformed)
+            setUvTransform(shader, "uUvRow" + std::to_string(texture.sample), slot);
     }
     shader.set("uMaterial", index);
     shader.set("uAlpha", material.alpha);
@@ -182,7 +192,9 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
         items.push_back({static_cast<int>(i), surface, glm::dot(center, view.forward)});
     }
     const auto materialOf = [this](const Item& item) {
-        return scene_.primitives[static_cast<size_t>(scene_.instances[static_cast<size_t>(item.instance)].primitive)].material;
+        return scene_
+            .primitives[static_cast<size_t>(scene_.instances[static_cast<size_t>(item.instance)].primitive)]
+            .material;
     };
     std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
         if (order == SurfaceOrder::backToFront) return a.depth > b.depth;
@@ -202,7 +214,8 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
             shader->set("uClipFromRelative", glm::mat4(view.clipFromRelative));
             perProgram(*shader);
             if (plan_.masked)
-                if (const PlannedBrdf* brdf = plan_.brdf(variant->brdf)) glStencilFunc(GL_ALWAYS, brdf->stencil, 0xff);
+                if (const PlannedBrdf* brdf = plan_.brdf(variant->brdf))
+                    glStencilFunc(GL_ALWAYS, brdf->stencil, 0xff);
         }
         if (materialOf(item) != material) {
             material = materialOf(item);

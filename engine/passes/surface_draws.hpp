@@ -1,5 +1,5 @@
-/// Draws a scene's surfaces: geometry and materials on the GPU, and the order in which they are drawn. Shared by the
-/// G-buffer and the forward pass.
+/// Draws a scene's surfaces: geometry and materials on the GPU, and the order in which they are drawn. Shared
+/// by the G-buffer and the forward pass.
 #pragma once
 
 #include <functional>
@@ -19,13 +19,16 @@ enum class SurfaceOrder { byProgram, backToFront };
 
 class SurfaceDraws {
 public:
-    SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capabilities& capabilities, ProgramCache& programs);
+    SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capabilities& capabilities,
+                 ProgramCache& programs);
 
-    /// Compiles the programs of a pass and uploads what they read, so that the first picture's time is its own.
+    /// Compiles the programs of a pass and uploads what they read, so that the first picture's time is its
+    /// own.
     void prepare(const PlannedPass& pass);
 
-    /// Draws every instance whose surface is among the pass's variants and whose bound is in view. `perProgram` sets a
-    /// pass's own uniforms after a program is put in use. Stencil reference: the model's mask value.
+    /// Draws every instance whose surface is among the pass's variants and whose bound is in view.
+    /// `perProgram` sets a pass's own uniforms after a program is put in use. Stencil reference: the model's
+    /// mask value.
     void draw(const PlannedPass& pass, const View& view, SurfaceOrder order,
               const std::function<void(const gl::Program&)>& perProgram);
 

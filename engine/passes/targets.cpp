@@ -3,12 +3,22 @@
 namespace lobe {
 
 GLenum formatOf(const std::string& name) {
-    static const std::map<std::string, GLenum> formats = {
-        {"R8", GL_R8},         {"RG8", GL_RG8},         {"RGBA8", GL_RGBA8},     {"R16", GL_R16},
-        {"RG16", GL_RG16},     {"RGBA16", GL_RGBA16},   {"R32F", GL_R32F},       {"RG32F", GL_RG32F},
-        {"RGBA32F", GL_RGBA32F}, {"R8UI", GL_R8UI},     {"R16UI", GL_R16UI},     {"R32UI", GL_R32UI},
-        {"DEPTH_COMPONENT24", GL_DEPTH_COMPONENT24},    {"DEPTH_COMPONENT32F", GL_DEPTH_COMPONENT32F},
-        {"DEPTH24_STENCIL8", GL_DEPTH24_STENCIL8},      {"DEPTH32F_STENCIL8", GL_DEPTH32F_STENCIL8}};
+    static const std::map<std::string, GLenum> formats = {{"R8", GL_R8},
+                                                          {"RG8", GL_RG8},
+                                                          {"RGBA8", GL_RGBA8},
+                                                          {"R16", GL_R16},
+                                                          {"RG16", GL_RG16},
+                                                          {"RGBA16", GL_RGBA16},
+                                                          {"R32F", GL_R32F},
+                                                          {"RG32F", GL_RG32F},
+                                                          {"RGBA32F", GL_RGBA32F},
+                                                          {"R8UI", GL_R8UI},
+                                                          {"R16UI", GL_R16UI},
+                                                          {"R32UI", GL_R32UI},
+                                                          {"DEPTH_COMPONENT24", GL_DEPTH_COMPONENT24},
+                                                          {"DEPTH_COMPONENT32F", GL_DEPTH_COMPONENT32F},
+                                                          {"DEPTH24_STENCIL8", GL_DEPTH24_STENCIL8},
+                                                          {"DEPTH32F_STENCIL8", GL_DEPTH32F_STENCIL8}};
     return formats.at(name);
 }
 
@@ -35,9 +45,11 @@ Targets::Targets(const FramePlan& plan, int width, int height) : width_(width), 
             result.push_back(texture(name));
         return result;
     };
-    if (plan.pass("gbuffer") != nullptr) gbuffer_ = gl::makeFramebuffer(ids(plan.gbufferTargets), depth, attachment);
+    if (plan.pass("gbuffer") != nullptr)
+        gbuffer_ = gl::makeFramebuffer(ids(plan.gbufferTargets), depth, attachment);
 
-    // Linear z is a texture of its own, so the depth buffer itself can mask; otherwise it is sampled and needs a copy.
+    // Linear z is a texture of its own, so the depth buffer itself can mask; otherwise it is sampled and
+    // needs a copy.
     copies_ = plan.reversedDepth && plan.pass("gbuffer") != nullptr;
     if (copies_) {
         mask_ = gl::makeTarget(depthFormat, width, height);

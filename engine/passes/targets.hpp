@@ -22,7 +22,8 @@ public:
 
     GLuint gbuffer() const { return gbuffer_.id(); }
     GLuint data() const { return data_.id(); }
-    /// Adds to one colour channel, masked by a copy of depth and stencil: the original is read as a texture meanwhile.
+    /// Adds to one colour channel, masked by a copy of depth and stencil: the original is read as a texture
+    /// meanwhile.
     GLuint lighting(const std::string& channel) const { return lighting_.at(channel).id(); }
     GLuint forward() const { return forward_.id(); }
     /// One colour channel alone, for clearing, reading and accumulation.

@@ -9,9 +9,12 @@ namespace {
 
 double componentValue(const Bitmap& bitmap, size_t index) {
     switch (bitmap.type) {
-        case ComponentType::u8: return std::to_integer<int>(bitmap.data[index]) / 255.0;
-        case ComponentType::u16: return reinterpret_cast<const uint16_t*>(bitmap.data.data())[index] / 65535.0;
-        case ComponentType::f32: return static_cast<double>(reinterpret_cast<const float*>(bitmap.data.data())[index]);
+        case ComponentType::u8:
+            return std::to_integer<int>(bitmap.data[index]) / 255.0;
+        case ComponentType::u16:
+            return reinterpret_cast<const uint16_t*>(bitmap.data.data())[index] / 65535.0;
+        case ComponentType::f32:
+            return static_cast<double>(reinterpret_cast<const float*>(bitmap.data.data())[index]);
     }
     return 0.0;
 }

@@ -14,7 +14,9 @@ std::string plural(int count, const std::string& noun) {
 }
 
 /// A parameter whose range lies within 0..1 fits a normalised format; others need float.
-bool fitsUnorm(const Parameter& parameter) { return parameter.minimum >= 0.0 && parameter.maximum <= 1.0; }
+bool fitsUnorm(const Parameter& parameter) {
+    return parameter.minimum >= 0.0 && parameter.maximum <= 1.0;
+}
 
 std::string unormFormat(int components, int bits) {
     static const char* const letters[] = {"", "R", "RG", "RGBA", "RGBA"};
@@ -22,21 +24,33 @@ std::string unormFormat(int components, int bits) {
 }
 
 int bytesOf(const std::string& format) {
-    static const std::map<std::string, int> sizes = {
-        {"R8", 1},     {"RG8", 2},     {"RGBA8", 4},   {"R16", 2},     {"RG16", 4},
-        {"RGBA16", 8}, {"R32F", 4},    {"RG32F", 8},   {"RGBA32F", 16}, {"R8UI", 1},
-        {"R16UI", 2},  {"R32UI", 4},   {"DEPTH_COMPONENT24", 4}, {"DEPTH_COMPONENT32F", 4},
-        {"DEPTH24_STENCIL8", 4}, {"DEPTH32F_STENCIL8", 8}};
+    static const std::map<std::string, int> sizes = {{"R8", 1},
+                                                     {"RG8", 2},
+                                                     {"RGBA8", 4},
+                                                     {"R16", 2},
+                                                     {"RG16", 4},
+                                                     {"RGBA16", 8},
+                                                     {"R32F", 4},
+                                                     {"RG32F", 8},
+                                                     {"RGBA32F", 16},
+                                                     {"R8UI", 1},
+                                                     {"R16UI", 2},
+                                                     {"R32UI", 4},
+                                                     {"DEPTH_COMPONENT24", 4},
+                                                     {"DEPTH_COMPONENT32F", 4},
+                                                     {"DEPTH24_STENCIL8", 4},
+                                                     {"DEPTH32F_STENCIL8", 8}};
     return sizes.at(format);
 }
 
-/// Lobe sharpness (|d ln f / d theta_h|, 1/rad) up to which a normal of 2x16 bits (off by at most 6.4e-5 rad) changes
-/// the lobe by less than 1 %.
+/// Lobe sharpness (|d ln f / d theta_h|, 1/rad) up to which a normal of 2x16 bits (off by at most 6.4e-5 rad)
+/// changes the lobe by less than 1 %.
 constexpr double kSharpnessOf16Bits = 0.01 / 6.4e-5;
 
 class Planner {
 public:
-    Planner(const SceneSummary& summary, const Quality& quality, const Capabilities& capabilities, const AovSet& aovs)
+    Planner(const SceneSummary& summary, const Quality& quality, const Capabilities& capabilities,
+            const AovSet& aovs)
         : scene_(summary), capabilities_(capabilities), aovs_(aovs) {
         plan_.quality = quality;
     }
@@ -49,7 +63,8 @@ public:
         plan_.reversedDepth = capabilities_.clipControl;
         deferred_ = plan_.quality.shading == Shading::deferred;
         anyLight_ = scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0;
-        unlit_ = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(), [](const BrdfFacts& f) { return f.name == kUnlit; });
+        unlit_ = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(),
+                             [](const BrdfFacts& f) { return f.name == kUnlit; });
         hasDeferredSurface_ = deferred_ && !scene_.brdfs.empty();
         for (Aov aov : aovs_)
             dataAovs_ |= aov != Aov::radiance && aov != Aov::contributions;
@@ -92,29 +107,36 @@ private:
             brdf.perMaterial.assign(facts.perMaterial.begin(), facts.perMaterial.end());
             plan_.brdfs.push_back(brdf);
         }
-        if (stencil > 255) throw InputError("scene uses more than 255 reflectance models; expected at most 255");
+        if (stencil > 255)
+            throw InputError("scene uses more than 255 reflectance models; expected at most 255");
     }
 
     void planGeometryChannels() {
         if (!plan_.reversedDepth) {
-            plan_.notes.push_back("depth: standard with linear z in a channel, since the context lacks ARB_clip_control");
+            plan_.notes.push_back(
+                "depth: standard with linear z in a channel, since the context lacks ARB_clip_control");
         }
         const bool stencil = plan_.masked;
-        const std::string format = plan_.reversedDepth ? (stencil ? "DEPTH32F_STENCIL8" : "DEPTH_COMPONENT32F")
-                                                       : (stencil ? "DEPTH24_STENCIL8" : "DEPTH_COMPONENT24");
+        const std::string format = plan_.reversedDepth
+                                       ? (stencil ? "DEPTH32F_STENCIL8" : "DEPTH_COMPONENT32F")
+                                       : (stencil ? "DEPTH24_STENCIL8" : "DEPTH_COMPONENT24");
         addChannel("depth", format, stencil ? "depth, and the model's mask value in stencil" : "depth",
-                   plan_.reversedDepth ? "reversed, so that position has relative error 6e-8 at every distance"
-                                       : "for visibility only");
+                   plan_.reversedDepth
+                       ? "reversed, so that position has relative error 6e-8 at every distance"
+                       : "for visibility only");
         if (!stencil)
-            leaveOut("channel", "stencil", scene_.brdfs.size() <= 1 ? "one shading model covers all pixels: nothing to mask"
-                                                                   : "forward shading needs no mask");
+            leaveOut("channel", "stencil",
+                     scene_.brdfs.size() <= 1 ? "one shading model covers all pixels: nothing to mask"
+                                              : "forward shading needs no mask");
         if (!needsDeferredTargets_) {
-            leaveOut("channel", "normal", deferred_ ? "no opaque surface" : "forward shading has no G-buffer");
+            leaveOut("channel", "normal",
+                     deferred_ ? "no opaque surface" : "forward shading has no G-buffer");
             return;
         }
         const bool needsPosition = anyLight_ || wants(Aov::depth) || wants(Aov::position);
         if (!plan_.reversedDepth && needsPosition)
-            addTarget("linear_z", "R32F", "distance along the view axis, m", "position, without clip control");
+            addTarget("linear_z", "R32F", "distance along the view axis, m",
+                      "position, without clip control");
         planNormal();
         planMaterialId();
         planParameters();
@@ -135,29 +157,35 @@ private:
         wideNormal_ = wide;
         addTarget("normal", wide ? "RG32F" : "RG16", "octahedral shading normal",
                   plan_.quality.gbufferBits == 32 ? "quality asks for full precision"
-                  : wide ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
-                         : "16 bits change no lobe here by more than 1 %");
+                  : wide                          ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
+                                                  : "16 bits change no lobe here by more than 1 %");
     }
 
     void planMaterialId() {
         const bool table = std::any_of(plan_.brdfs.begin(), plan_.brdfs.end(),
                                        [](const PlannedBrdf& b) { return !b.perMaterial.empty(); });
         table_ = table && (anyLight_ || wants(Aov::albedo) || wants(Aov::roughness));
-        if (!table_) leaveOut("buffer", "material table", "no parameter differs between materials of one model and reads it");
+        if (!table_)
+            leaveOut("buffer", "material table",
+                     "no parameter differs between materials of one model and reads it");
         if (!table_ && !wants(Aov::materialId)) {
             leaveOut("channel", "material",
                      scene_.materialsInUse.size() <= 1 ? "one material" : "nothing is looked up by material");
             return;
         }
         const int last = scene_.materialsInUse.empty() ? 0 : scene_.materialsInUse.back();
-        addTarget("material", last < 255 ? "R8UI" : last < 65535 ? "R16UI" : "R32UI", "index of the material + 1",
+        addTarget("material",
+                  last < 255     ? "R8UI"
+                  : last < 65535 ? "R16UI"
+                                 : "R32UI",
+                  "index of the material + 1",
                   table_ ? "constants that differ by material are looked up in a table" : "asked for as AOV");
     }
 
     void planParameters() {
         const bool read = anyLight_ || wants(Aov::albedo) || wants(Aov::roughness);
-        // Targets are shared by all models: each fills them from the first component, normalised values apart from
-        // those that need float.
+        // Targets are shared by all models: each fills them from the first component, normalised values apart
+        // from those that need float.
         std::vector<std::string> holds[2];
         int components[2] = {0, 0};
         for (int group : {0, 1}) {
@@ -197,7 +225,8 @@ private:
                 const int index = (group == 0 ? 0 : unormTargets) + first / 4;
                 addTarget("parameters" + std::to_string(index),
                           unormFormat(count, group == 0 ? plan_.quality.gbufferBits : 32), what,
-                          "textures or vertex colours vary it" + std::string(group == 1 ? "; its range needs float" : ""));
+                          "textures or vertex colours vary it" +
+                              std::string(group == 1 ? "; its range needs float" : ""));
             }
         for (size_t b = 0; b < plan_.brdfs.size(); ++b) {
             if (scene_.brdfs[b].name == kUnlit) continue;
@@ -205,8 +234,9 @@ private:
             for (int p = 0; p < static_cast<int>(brdf.parameters.size()); ++p)
                 if (!scene_.brdfs[b].perPixel.contains(p))
                     leaveOut("channel", brdf.name + "." + brdf.parameters[static_cast<size_t>(p)].name,
-                             scene_.brdfs[b].perMaterial.contains(p) ? "constant per material: kept in the material table"
-                                                                     : "the same everywhere: a uniform");
+                             scene_.brdfs[b].perMaterial.contains(p)
+                                 ? "constant per material: kept in the material table"
+                                 : "the same everywhere: a uniform");
         }
     }
 
@@ -218,9 +248,11 @@ private:
         if (!scene_.emission) leaveOut("pass", "emission", "no material emits");
         if (!scene_.ambient) leaveOut("pass", "ambient", "the scene has no ambient light");
         if (!scene_.occlusion)
-            leaveOut("texture", "occlusion", scene_.ambient ? "no material has one" : "there is no ambient light for it to act on");
+            leaveOut("texture", "occlusion",
+                     scene_.ambient ? "no material has one" : "there is no ambient light for it to act on");
         if (contributions_) {
-            plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot", "transparent"};
+            plan_.contributionTargets = {"emission", "ambient", "directional",
+                                         "point",    "spot",    "transparent"};
             for (const std::string& name : plan_.contributionTargets)
                 addChannel("contribution." + name, "RGBA32F", "radiance from " + name, "asked for as AOV");
             if (gbufferRadiance_) {
@@ -231,7 +263,8 @@ private:
         }
         if (static_cast<int>(plan_.gbufferTargets.size()) > capabilities_.maxColorAttachments)
             throw ContextError("the scene needs " + std::to_string(plan_.gbufferTargets.size()) +
-                               " G-buffer targets; the driver has " + std::to_string(capabilities_.maxColorAttachments));
+                               " G-buffer targets; the driver has " +
+                               std::to_string(capabilities_.maxColorAttachments));
     }
 
     /// Lights without range reach every pixel and stay outside the clusters.
@@ -242,19 +275,23 @@ private:
             const bool use = from > 0 && ranged >= from && count >= from;
             global = use ? count - ranged : count;
             std::string line = std::string(type) + ": " + plural(count, "light") +
-                               (use ? ", " + std::to_string(ranged) + " of them in clusters of 64 x 64 px and 24 slices of depth"
+                               (use ? ", " + std::to_string(ranged) +
+                                          " of them in clusters of 64 x 64 px and 24 slices of depth"
                                     : ", one loop over all");
             if (!use)
-                line += from == 0      ? " (clusters are off)"
+                line += from == 0       ? " (clusters are off)"
                         : ranged < from ? " (fewer than " + std::to_string(from) + " with a range)"
                                         : "";
             plan_.lightGroups.push_back(line);
             return use;
         };
         if (scene_.directionalLights > 0)
-            plan_.lightGroups.push_back("directional: " + plural(scene_.directionalLights, "light") + ", one loop over all");
-        plan_.clusteredPoint = clustered("point", scene_.pointLights, scene_.rangedPointLights, plan_.globalPointLights);
-        plan_.clusteredSpot = clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
+            plan_.lightGroups.push_back("directional: " + plural(scene_.directionalLights, "light") +
+                                        ", one loop over all");
+        plan_.clusteredPoint =
+            clustered("point", scene_.pointLights, scene_.rangedPointLights, plan_.globalPointLights);
+        plan_.clusteredSpot =
+            clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
         if (!plan_.clusteredPoint && !plan_.clusteredSpot)
             leaveOut("buffer", "light clusters", "no light type has enough ranged lights for lists to pay");
     }
@@ -272,7 +309,9 @@ private:
 
     void lightDefines(Defines& defines, LightType type) const {
         switch (type) {
-            case LightType::directional: defines["DIRECTIONAL_LIGHTS"] = "1"; break;
+            case LightType::directional:
+                defines["DIRECTIONAL_LIGHTS"] = "1";
+                break;
             case LightType::point:
                 if (plan_.globalPointLights > 0) defines["POINT_LIGHTS"] = "1";
                 if (plan_.clusteredPoint) defines["POINT_CLUSTERS"] = "1";
@@ -308,7 +347,8 @@ private:
     void planPasses() {
         planGbufferPass();
         planCoverage();
-        planLightPass("light.directional", "pass/light.frag", LightType::directional, scene_.directionalLights);
+        planLightPass("light.directional", "pass/light.frag", LightType::directional,
+                      scene_.directionalLights);
         planLightPass("light.point", "pass/light.frag", LightType::point, scene_.pointLights);
         planLightPass("light.spot", "pass/light.frag", LightType::spot, scene_.spotLights);
         planForward();
@@ -332,14 +372,17 @@ private:
             for (size_t t = 0; t < plan_.gbufferTargets.size(); ++t) {
                 std::string key = plan_.gbufferTargets[t];
                 std::replace(key.begin(), key.end(), '.', '_');
-                std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+                std::transform(key.begin(), key.end(), key.begin(),
+                               [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
                 defines["OUT_" + key] = std::to_string(t);
             }
             pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
         }
-        pass.reason = deferred_ ? plural(static_cast<int>(scene_.instances - scene_.blendedInstances), "opaque or masked instance")
+        pass.reason = deferred_ ? plural(static_cast<int>(scene_.instances - scene_.blendedInstances),
+                                         "opaque or masked instance")
                                 : "data AOVs are asked for";
-        if (gbufferRadiance_) pass.reason += "; emission and ambient light are written here, in place of passes of their own";
+        if (gbufferRadiance_)
+            pass.reason += "; emission and ambient light are written here, in place of passes of their own";
         plan_.passes.push_back(pass);
     }
 
@@ -349,7 +392,11 @@ private:
             leaveOut("pass", "coverage", "the G-buffer pass writes radiance and with it coverage");
             return;
         }
-        plan_.passes.push_back({"coverage", "pass/coverage.frag", {{}}, {"depth"}, {"radiance"},
+        plan_.passes.push_back({"coverage",
+                                "pass/coverage.frag",
+                                {{}},
+                                {"depth"},
+                                {"radiance"},
                                 "lighting passes add radiance only; coverage is set once"});
     }
 
@@ -358,7 +405,11 @@ private:
         const std::string kind = kinds[static_cast<size_t>(type)];
         if (count == 0) return leaveOut("pass", name, "the scene has no " + kind + " light");
         if (!deferred_) return leaveOut("pass", name, "forward shading");
-        PlannedPass pass{name, program, {}, {"depth"}, {contributions_ ? "contribution." + kind : "radiance"},
+        PlannedPass pass{name,
+                         program,
+                         {},
+                         {"depth"},
+                         {contributions_ ? "contribution." + kind : "radiance"},
                          plural(count, kind + " light")};
         for (const char* channel : {"linear_z", "normal", "material"})
             if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
@@ -366,7 +417,8 @@ private:
             pass.reads.push_back("parameters" + std::to_string(i));
         for (const PlannedBrdf& brdf : plan_.brdfs) {
             if (brdf.name == kUnlit) continue;
-            // Lists of clusters are drawn tile by tile, lights that reach everything over the whole picture: two programs.
+            // Lists of clusters are drawn tile by tile, lights that reach everything over the whole picture:
+            // two programs.
             Defines lights;
             lightDefines(lights, type);
             for (const auto& [key, value] : lights) {
@@ -401,31 +453,39 @@ private:
             if (contributions_) defines["CONTRIBUTIONS"] = "1";
             pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
         }
-        pass.reason = deferred_ ? plural(static_cast<int>(scene_.blendedInstances), "blended instance") + ", drawn back to front"
+        pass.reason = deferred_ ? plural(static_cast<int>(scene_.blendedInstances), "blended instance") +
+                                      ", drawn back to front"
                                 : "forward shading is asked for";
         plan_.passes.push_back(pass);
     }
 
     void planAccumulation() {
         if (plan_.samples == 1) return leaveOut("pass", "accumulate", "one sample a pixel");
-        addChannel("accumulated", "RGBA32F", "sum of jittered frames", "anti-aliasing by " + std::to_string(plan_.samples) + " samples");
-        plan_.passes.push_back({"accumulate", "pass/accumulate.frag", {{}}, {"radiance"}, {"accumulated"},
+        addChannel("accumulated", "RGBA32F", "sum of jittered frames",
+                   "anti-aliasing by " + std::to_string(plan_.samples) + " samples");
+        plan_.passes.push_back({"accumulate",
+                                "pass/accumulate.frag",
+                                {{}},
+                                {"radiance"},
+                                {"accumulated"},
                                 plural(plan_.samples, "jittered frame") + " averaged"});
     }
 
     void planDataAovs() {
         if (!dataAovs_) return leaveOut("pass", "aov", "no data AOV is asked for");
         static const std::pair<Aov, const char*> kFormats[] = {
-            {Aov::depth, "R32F"},      {Aov::position, "RGBA32F"}, {Aov::normal, "RGBA32F"}, {Aov::albedo, "RGBA32F"},
-            {Aov::materialId, "R32F"}, {Aov::roughness, "R32F"}};
-        PlannedPass pass{"aov", "pass/aov.frag", {}, {"depth"}, {}, "data AOVs are asked for; taken at pixel centres"};
+            {Aov::depth, "R32F"},     {Aov::position, "RGBA32F"}, {Aov::normal, "RGBA32F"},
+            {Aov::albedo, "RGBA32F"}, {Aov::materialId, "R32F"},  {Aov::roughness, "R32F"}};
+        PlannedPass pass{
+            "aov", "pass/aov.frag", {}, {"depth"}, {}, "data AOVs are asked for; taken at pixel centres"};
         Defines outputs;
         for (const auto& [aov, format] : kFormats) {
             if (!wants(aov)) continue;
             const std::string name = aovNames()[static_cast<size_t>(aov)];
             addChannel("aov." + name, format, name, "asked for as AOV");
             std::string key = name;
-            std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+            std::transform(key.begin(), key.end(), key.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
             outputs["OUT_" + key] = std::to_string(plan_.dataTargets.size());
             plan_.dataTargets.push_back("aov." + name);
             pass.writes.push_back("aov." + name);
@@ -451,8 +511,10 @@ private:
     const Capabilities& capabilities_;
     const AovSet& aovs_;
     FramePlan plan_;
-    bool deferred_ = true, anyLight_ = false, unlit_ = false, hasDeferredSurface_ = false, needsDeferredTargets_ = false;
-    bool dataAovs_ = false, contributions_ = false, gbufferRadiance_ = false, wideNormal_ = false, table_ = false;
+    bool deferred_ = true, anyLight_ = false, unlit_ = false, hasDeferredSurface_ = false,
+         needsDeferredTargets_ = false;
+    bool dataAovs_ = false, contributions_ = false, gbufferRadiance_ = false, wideNormal_ = false,
+         table_ = false;
 };
 
 }  // namespace

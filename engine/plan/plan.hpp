@@ -1,5 +1,5 @@
-/// SceneSummary x Quality x Capabilities -> FramePlan: what runs, in which variant, into which targets, and what is
-/// left out, each with its reason. Pure: no OpenGL, no files.
+/// SceneSummary x Quality x Capabilities -> FramePlan: what runs, in which variant, into which targets, and
+/// what is left out, each with its reason. Pure: no OpenGL, no files.
 #pragma once
 
 #include <map>
@@ -15,11 +15,11 @@ namespace lobe {
 
 /// A texture of the frame, by what it holds.
 struct Channel {
-    std::string name;     ///< "depth", "normal", "material", "parameters0", "radiance", ...
-    std::string format;   ///< GL name: "RG16", "RGBA32F", "DEPTH_COMPONENT32F"
+    std::string name;    ///< "depth", "normal", "material", "parameters0", "radiance", ...
+    std::string format;  ///< GL name: "RG16", "RGBA32F", "DEPTH_COMPONENT32F"
     int bytesPerPixel = 0;
-    std::string holds;    ///< for people: "octahedral shading normal", "baseColor.rgb roughness"
-    std::string reason;   ///< why it is there and why in this format
+    std::string holds;   ///< for people: "octahedral shading normal", "baseColor.rgb roughness"
+    std::string reason;  ///< why it is there and why in this format
 };
 
 /// Where a parameter that varies within a material is kept in the G-buffer.
@@ -29,11 +29,11 @@ struct ParameterPlace {
     int component = 0;   ///< first component in that target
 };
 
-/// One model of the opaque surfaces, as the lighting passes see it. Parameters that are in neither list are the same
-/// for all its materials and reach the shaders as uniforms.
+/// One model of the opaque surfaces, as the lighting passes see it. Parameters that are in neither list are
+/// the same for all its materials and reach the shaders as uniforms.
 struct PlannedBrdf {
     std::string name;
-    int stencil = 0;                      ///< mask value; 0 when all pixels have this model
+    int stencil = 0;                       ///< mask value; 0 when all pixels have this model
     std::vector<ParameterPlace> perPixel;  ///< read from the G-buffer
     std::vector<int> perMaterial;          ///< looked up in the material table, packed in this order
 };
@@ -70,14 +70,17 @@ struct FramePlan {
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
-    std::vector<std::string> gbufferTargets;       ///< colour attachments of the G-buffer pass, in order of location
-    std::vector<std::string> contributionTargets;  ///< of the contributions AOV, in order of summation; else empty
-    std::vector<std::string> dataTargets;          ///< colour attachments of the AOV pass
+    std::vector<std::string>
+        gbufferTargets;  ///< colour attachments of the G-buffer pass, in order of location
+    std::vector<std::string>
+        contributionTargets;               ///< of the contributions AOV, in order of summation; else empty
+    std::vector<std::string> dataTargets;  ///< colour attachments of the AOV pass
     std::vector<PlannedPass> passes;
     std::vector<LeftOut> leftOut;
-    std::vector<std::string> lightGroups;  ///< for people: "point: 100 lights in clusters of 64 px x 24 slices"
-    std::vector<std::string> textures;     ///< for people: one line a texture kept
-    std::vector<std::string> notes;        ///< decisions about the whole frame
+    std::vector<std::string>
+        lightGroups;                    ///< for people: "point: 100 lights in clusters of 64 px x 24 slices"
+    std::vector<std::string> textures;  ///< for people: one line a texture kept
+    std::vector<std::string> notes;     ///< decisions about the whole frame
 
     const PlannedPass* pass(std::string_view name) const;
     const Channel* channel(std::string_view name) const;

@@ -29,7 +29,8 @@ void writePass(std::ostringstream& out, const PlannedPass& pass) {
     out << "      writes " << joined(pass.writes, ", ") << '\n';
     for (const Variant& variant : pass.variants) {
         if (variant.brdf.empty()) continue;
-        out << "      program " << pass.program << " [" << variant.brdf << "] " << definesText(variant.defines) << '\n';
+        out << "      program " << pass.program << " [" << variant.brdf << "] "
+            << definesText(variant.defines) << '\n';
     }
 }
 
@@ -43,8 +44,8 @@ std::string toText(const FramePlan& plan) {
         writePass(out, pass);
     out << "channels (G-buffer: " << plan.gbufferBytesPerPixel() << " bytes a pixel)\n";
     for (const Channel& channel : plan.channels)
-        out << "  " << channel.name << ' ' << channel.format << " (" << channel.bytesPerPixel << " B): " << channel.holds
-            << "; " << channel.reason << '\n';
+        out << "  " << channel.name << ' ' << channel.format << " (" << channel.bytesPerPixel
+            << " B): " << channel.holds << "; " << channel.reason << '\n';
     const auto list = [&out](const char* title, const std::vector<std::string>& lines) {
         if (lines.empty()) return;
         out << title << '\n';
@@ -87,7 +88,8 @@ std::string toJson(const FramePlan& plan) {
                                       {"holds", channel.holds},
                                       {"reason", channel.reason}});
     for (const LeftOut& leftOut : plan.leftOut)
-        result["left_out"].push_back({{"kind", leftOut.kind}, {"name", leftOut.name}, {"reason", leftOut.reason}});
+        result["left_out"].push_back(
+            {{"kind", leftOut.kind}, {"name", leftOut.name}, {"reason", leftOut.reason}});
     result["lights"] = plan.lightGroups;
     result["textures"] = plan.textures;
     result["notes"] = plan.notes;

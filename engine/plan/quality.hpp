@@ -13,9 +13,11 @@ enum class Shading : uint8_t {
 };
 
 struct Quality {
-    /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none, ssaa4, ssaa16).
+    /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none,
+    /// ssaa4, ssaa16).
     int samples = 4;
-    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals: 32 here means 2x32F.
+    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals: 32 here means
+    /// 2x32F.
     int gbufferBits = 16;
     /// Bits a texel component of textures that are filtered: 8, 16 or 32 (float).
     int textureBits = 8;

@@ -8,14 +8,16 @@ namespace {
 /// Gathers the texture fetches of one surface: slots that read the same texels in the same way share one.
 class SampleCollector {
 public:
-    SampleCollector(const Material& material, SurfaceFeatures& features) : material_(material), features_(features) {}
+    SampleCollector(const Material& material, SurfaceFeatures& features)
+        : material_(material), features_(features) {}
 
     void use(const std::string& name, const TextureSlot& slot, int channel = 0) {
         if (!slot) return;
         const bool srgb = slotIsSrgb(material_, name);
         const bool alphaOnly = name == "alpha";
         size_t sample = 0;
-        while (sample < slots_.size() && !(slots_[sample].slot == slot && (alphaOnly || slots_[sample].srgb == srgb)))
+        while (sample < slots_.size() &&
+               !(slots_[sample].slot == slot && (alphaOnly || slots_[sample].srgb == srgb)))
             ++sample;
         if (sample == slots_.size()) {
             slots_.push_back({slot, srgb});
@@ -63,7 +65,8 @@ BrdfFacts factsOf(const std::string& name, const std::vector<Use>& uses) {
     }
     for (int p = 0; p < static_cast<int>(brdf.parameters.size()); ++p)
         for (const Use& use : uses)
-            if (!facts.perPixel.contains(p) && valuesDiffer(brdf, p, use.material->values, uses[0].material->values))
+            if (!facts.perPixel.contains(p) &&
+                valuesDiffer(brdf, p, use.material->values, uses[0].material->values))
                 facts.perMaterial.insert(p);
     return facts;
 }
@@ -73,7 +76,9 @@ std::string imageLabel(const Scene& scene, int texture) {
     if (image < 0) return "texture " + std::to_string(texture) + " (no image)";
     const auto index = static_cast<size_t>(image);
     return "images[" + std::to_string(image) + "]" +
-           (index < scene.imageNames.size() && !scene.imageNames[index].empty() ? " " + scene.imageNames[index] : "");
+           (index < scene.imageNames.size() && !scene.imageNames[index].empty()
+                ? " " + scene.imageNames[index]
+                : "");
 }
 
 void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) {
@@ -100,7 +105,9 @@ void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) 
 void countLights(const Scene& scene, SceneSummary& summary) {
     for (const Light& light : scene.lights) {
         switch (light.type) {
-            case LightType::directional: ++summary.directionalLights; break;
+            case LightType::directional:
+                ++summary.directionalLights;
+                break;
             case LightType::point:
                 ++summary.pointLights;
                 summary.rangedPointLights += light.range ? 1 : 0;
@@ -123,7 +130,8 @@ const SurfaceTexture* SurfaceFeatures::texture(std::string_view slot) const {
 }
 
 bool SurfaceFeatures::usesUv(int set) const {
-    return std::any_of(samples.begin(), samples.end(), [set](const SurfaceSample& s) { return s.uvSet == set; });
+    return std::any_of(samples.begin(), samples.end(),
+                       [set](const SurfaceSample& s) { return s.uvSet == set; });
 }
 
 const TextureSlot& slotOf(const Material& material, std::string_view slot) {

@@ -32,7 +32,8 @@ struct SurfaceSample {
     auto operator<=>(const SurfaceSample&) const = default;
 };
 
-/// What a fetched texel is used for. Slots are parameter names, or "normal", "occlusion", "emission", "alpha".
+/// What a fetched texel is used for. Slots are parameter names, or "normal", "occlusion", "emission",
+/// "alpha".
 struct SurfaceTexture {
     std::string slot;
     int sample = 0;   ///< index into SurfaceFeatures::samples
@@ -40,7 +41,8 @@ struct SurfaceTexture {
     auto operator<=>(const SurfaceTexture&) const = default;
 };
 
-/// One combination of features that a surface shader must serve: a variant of the G-buffer or forward program.
+/// One combination of features that a surface shader must serve: a variant of the G-buffer or forward
+/// program.
 struct SurfaceFeatures {
     std::string brdf;
     std::vector<SurfaceSample> samples;
@@ -67,7 +69,7 @@ struct SceneSummary {
     bool normalMaps = false, tangents = false, vertexColors = false, occlusion = false;
     bool uv[2] = {false, false};
     size_t triangles = 0, instances = 0, blendedInstances = 0;
-    std::vector<std::string> textures;        ///< "images[0] helmet_albedo.jpg: baseColor of 2 materials"
+    std::vector<std::string> textures;  ///< "images[0] helmet_albedo.jpg: baseColor of 2 materials"
     std::vector<std::string> unusedTextures;
 
     bool lit() const { return directionalLights + pointLights + spotLights > 0 || ambient; }
@@ -75,8 +77,8 @@ struct SceneSummary {
 
 SceneSummary summarise(const Scene& scene);
 
-/// What a material asks of a surface shader, with the vertex data that `primitive` brings. Occlusion textures count
-/// only where there is ambient light for them to act on.
+/// What a material asks of a surface shader, with the vertex data that `primitive` brings. Occlusion textures
+/// count only where there is ambient light for them to act on.
 SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool ambient);
 
 /// The texture slot behind a name of SurfaceTexture::slot.
@@ -84,12 +86,13 @@ const TextureSlot& slotOf(const Material& material, std::string_view slot);
 /// Whether the texels of a slot are sRGB encoded.
 bool slotIsSrgb(const Material& material, std::string_view slot);
 
-/// The scene with every material's model replaced (`--brdf NAME`): parameters by Brdf::fromMetallicRoughness, the base
-/// colour texture carried over, other textures by their mean; unlit materials stay.
+/// The scene with every material's model replaced (`--brdf NAME`): parameters by Brdf::fromMetallicRoughness,
+/// the base colour texture carried over, other textures by their mean; unlit materials stay.
 Scene withBrdf(const Scene& scene, const Brdf& brdf);
 
-/// The documented light of a scene without any (docs/scenes.md): a key light over the camera's left shoulder and a
-/// little ambient. Returns false, and adds nothing, if the scene has a light or nothing that takes light.
+/// The documented light of a scene without any (docs/scenes.md): a key light over the camera's left shoulder
+/// and a little ambient. Returns false, and adds nothing, if the scene has a light or nothing that takes
+/// light.
 bool addDefaultLight(Scene& scene, const Camera& camera);
 
 }  // namespace lobe

@@ -13,9 +13,12 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
-glm::dvec3 column(const glm::dmat4& matrix, int index) { return glm::dvec3(matrix[index]); }
+glm::dvec3 column(const glm::dmat4& matrix, int index) {
+    return glm::dvec3(matrix[index]);
+}
 
-/// Half extents of the picture plane: at distance 1 for a perspective camera, in metres for an orthographic one.
+/// Half extents of the picture plane: at distance 1 for a perspective camera, in metres for an orthographic
+/// one.
 glm::dvec2 halfExtents(const Camera& camera, double pictureAspect) {
     const double height = camera.orthographic ? camera.yMag : std::tan(camera.verticalFov * 0.5);
     const double width = camera.orthographic ? camera.xMag : height * camera.aspect.value_or(pictureAspect);
@@ -48,7 +51,8 @@ Camera framingCamera(const Bounds& bounds, double aspect, const Framing& framing
     Camera camera = lookAt(center + direction, center, framing.verticalFov);
     camera.name = "framing";
 
-    const glm::dvec2 tangent(std::tan(framing.verticalFov * 0.5) * aspect, std::tan(framing.verticalFov * 0.5));
+    const glm::dvec2 tangent(std::tan(framing.verticalFov * 0.5) * aspect,
+                             std::tan(framing.verticalFov * 0.5));
     double distance = 0.0;
     if (framing.fit == Fit::sphere || !(bounds.radius() > 0.0)) {
         const double radius = bounds.radius() > 0.0 ? bounds.radius() : 1.0;
@@ -60,7 +64,8 @@ Camera framingCamera(const Bounds& bounds, double aspect, const Framing& framing
                                    (corner & 2) != 0 ? bounds.upper.y : bounds.lower.y,
                                    (corner & 4) != 0 ? bounds.upper.z : bounds.lower.z);
             const glm::dvec3 p = cameraFromWorld * (point - center);
-            distance = std::max(distance, p.z + 1.05 * std::max(std::abs(p.x) / tangent.x, std::abs(p.y) / tangent.y));
+            distance = std::max(distance,
+                                p.z + 1.05 * std::max(std::abs(p.x) / tangent.x, std::abs(p.y) / tangent.y));
         }
     }
     camera.worldFromCamera[3] = glm::dvec4(center + direction * distance, 1.0);
@@ -82,7 +87,8 @@ void fitDepthRange(Camera& camera, const Bounds& bounds) {
     const glm::dvec3 eye = column(camera.worldFromCamera, 3);
     const glm::dvec3 forward = -column(camera.worldFromCamera, 2);
     const double center = glm::dot(bounds.center() - eye, forward);
-    // Reversed float depth is as exact near as far, so the near plane may be close: only what is in front is kept.
+    // Reversed float depth is as exact near as far, so the near plane may be close: only what is in front is
+    // kept.
     camera.zNear = std::max((center - radius) * 0.5, radius * 1e-4);
     if (camera.orthographic)
         camera.zFar = std::max(center + radius * 1.01, camera.zNear * 2.0);
@@ -96,9 +102,11 @@ const Camera& findCamera(const Scene& scene, const std::string& nameOrIndex) {
         if (camera.name == nameOrIndex) return camera;
         names.push_back(camera.name);
     }
-    const bool isNumber = !nameOrIndex.empty() && nameOrIndex.size() < 6 &&
-                          std::all_of(nameOrIndex.begin(), nameOrIndex.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (isNumber && std::stoul(nameOrIndex) < scene.cameras.size()) return scene.cameras[std::stoul(nameOrIndex)];
+    const bool isNumber =
+        !nameOrIndex.empty() && nameOrIndex.size() < 6 &&
+        std::all_of(nameOrIndex.begin(), nameOrIndex.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (isNumber && std::stoul(nameOrIndex) < scene.cameras.size())
+        return scene.cameras[std::stoul(nameOrIndex)];
     std::string list;
     for (size_t i = 0; i < names.size(); ++i)
         list += (i ? ", " : "") + std::to_string(i) + " '" + names[i] + "'";

@@ -9,12 +9,13 @@
 
 namespace lobe {
 
-/// What a framing camera must hold: the box as seen from its side, or the sphere about it, which also fits when the
-/// camera orbits.
+/// What a framing camera must hold: the box as seen from its side, or the sphere about it, which also fits
+/// when the camera orbits.
 enum class Fit : uint8_t { box, sphere };
 
-/// The documented camera of a scene without one: perspective, 45 degrees high, at azimuth 25 and elevation 15 degrees
-/// (0, 0 looks along -Z at the front), at the distance where the bounds just fit, with a margin of 5 %.
+/// The documented camera of a scene without one: perspective, 45 degrees high, at azimuth 25 and elevation 15
+/// degrees (0, 0 looks along -Z at the front), at the distance where the bounds just fit, with a margin of 5
+/// %.
 struct Framing {
     double azimuthDeg = 25.0;
     double elevationDeg = 15.0;
@@ -38,8 +39,9 @@ const Camera& findCamera(const Scene& scene, const std::string& nameOrIndex);
 /// All that the passes need, in camera-relative world space: world axes, origin at the eye, so that float
 /// coordinates stay small however far from the world's origin the camera is.
 struct View {
-    glm::dvec3 eye;                 ///< world
-    glm::dmat4 clipFromRelative;    ///< reversed depth in 0..1: 1 at the near plane, 0 at the far plane or infinity
+    glm::dvec3 eye;  ///< world
+    glm::dmat4
+        clipFromRelative;  ///< reversed depth in 0..1: 1 at the near plane, 0 at the far plane or infinity
     /// Depth d to distance z along the view axis: z = (a + b d) / (c + e d).
     glm::dvec4 depthToZ;
     /// Ray of pixel (x, y) (pixel units, centre of the first = 0.5, row 0 at the bottom as GL counts):

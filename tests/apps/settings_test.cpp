@@ -26,8 +26,11 @@ std::string refusal(const std::function<void()>& action) {
 TEST(Settings, EverySpellingOfAResolutionIsOneValue) {
     for (const json& given : {json("1280,720"), json("1280x720"), json("1280X720"), json({1280, 720})})
         EXPECT_EQ(parseSetting(requireSetting("resolution", ""), given, "test"), json({1280, 720})) << given;
-    for (const char* wrong : {"1280", "0,720", "-1,5", "1280.5,720", "a,b", "1,2,3", "20000,1", "", "1280,720,"})
-        EXPECT_THAT(refusal([&] { parseSetting(requireSetting("resolution", ""), wrong, "test"); }), HasSubstr("1 to 16384")) << wrong;
+    for (const char* wrong :
+         {"1280", "0,720", "-1,5", "1280.5,720", "a,b", "1,2,3", "20000,1", "", "1280,720,"})
+        EXPECT_THAT(refusal([&] { parseSetting(requireSetting("resolution", ""), wrong, "test"); }),
+                    HasSubstr("1 to 16384"))
+            << wrong;
 }
 
 TEST(Settings, ColoursAreNumbersOrHexOrTransparent) {
@@ -36,20 +39,25 @@ TEST(Settings, ColoursAreNumbersOrHexOrTransparent) {
     EXPECT_EQ(parseSetting(setting, "0,0.5,1", ""), json({0.0, 0.5, 1.0}));
     EXPECT_EQ(parseSetting(setting, "transparent", ""), "transparent");
     for (const char* wrong : {"#ff00", "#gg0000", "2,0,0", "red", "-0.1,0,0", "nan,0,0"})
-        EXPECT_THAT(refusal([&] { parseSetting(setting, wrong, "test"); }), HasSubstr("transparent, #rrggbb")) << wrong;
+        EXPECT_THAT(refusal([&] { parseSetting(setting, wrong, "test"); }), HasSubstr("transparent, #rrggbb"))
+            << wrong;
 }
 
 TEST(Settings, NumbersOutOfRangeAreRefusedAndNotClamped) {
-    EXPECT_THAT(refusal([] { Settings().set("jpeg_quality", "101", "here"); }), HasSubstr("here: jpeg_quality '101'; expected a whole number from 1 to 100"));
+    EXPECT_THAT(refusal([] { Settings().set("jpeg_quality", "101", "here"); }),
+                HasSubstr("here: jpeg_quality '101'; expected a whole number from 1 to 100"));
     EXPECT_THAT(refusal([] { Settings().set("exposure", "inf", "here"); }), HasSubstr("exposure"));
     EXPECT_THAT(refusal([] { Settings().set("frames", "1.5", "here"); }), HasSubstr("whole number"));
     EXPECT_THAT(refusal([] { Settings().set("exposure", true, "here"); }), HasSubstr("a number"));
 }
 
 TEST(Settings, UnknownKeysAndChoicesNameTheNearest) {
-    EXPECT_THAT(refusal([] { Settings().set("tone_maping", "aces", "my.json"); }), HasSubstr("my.json: unknown setting 'tone_maping'; did you mean 'tone_mapping'?"));
-    EXPECT_THAT(refusal([] { Settings().set("brdf", "lambret", "here"); }), HasSubstr("did you mean 'lambert'"));
-    EXPECT_THAT(refusal([] { Settings().set("aov", "dept,normal", "here"); }), HasSubstr("did you mean 'depth'"));
+    EXPECT_THAT(refusal([] { Settings().set("tone_maping", "aces", "my.json"); }),
+                HasSubstr("my.json: unknown setting 'tone_maping'; did you mean 'tone_mapping'?"));
+    EXPECT_THAT(refusal([] { Settings().set("brdf", "lambret", "here"); }),
+                HasSubstr("did you mean 'lambert'"));
+    EXPECT_THAT(refusal([] { Settings().set("aov", "dept,normal", "here"); }),
+                HasSubstr("did you mean 'depth'"));
 }
 
 TEST(Settings, LaterLayersWinButForMarkedValues) {

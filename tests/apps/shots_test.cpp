@@ -50,7 +50,8 @@ TEST(Shards, EveryShotIsInExactlyOneShard) {
         for (const int shards : {1, 2, 3, 8}) {
             std::multiset<int> seen;
             for (int i = 1; i <= shards; ++i)
-                for (const Shot& shot : shard(numbered(count), std::to_string(i) + "/" + std::to_string(shards)))
+                for (const Shot& shot :
+                     shard(numbered(count), std::to_string(i) + "/" + std::to_string(shards)))
                     seen.insert(shot.number);
             EXPECT_EQ(seen.size(), static_cast<size_t>(count));
             EXPECT_EQ(std::set<int>(seen.begin(), seen.end()).size(), static_cast<size_t>(count));
@@ -74,11 +75,12 @@ TEST(Templates, FieldsPaddingEscapesAndHashes) {
 }
 
 TEST_F(Batches, PresetsInheritAndShotsWin) {
-    const auto shots = shotsOfBatch(write(R"({"presets": {"a": {"exposure": 1, "resolution": [64, 32], "brdf": "phong"},
+    const auto shots =
+        shotsOfBatch(write(R"({"presets": {"a": {"exposure": 1, "resolution": [64, 32], "brdf": "phong"},
                                                           "b": {"inherits": "a", "exposure": 2}},
                                               "shots": [{"scene": "x.gltf", "preset": "b", "brdf": "lambert"},
                                                         {"scene": ["x.gltf", "y.gltf"], "frames": 2, "output": "{model}{frame}.png"}]})"),
-                                    {});
+                     {});
     ASSERT_EQ(shots.size(), 5u);
     EXPECT_EQ(shots[0].settings.get("exposure"), 2.0);
     EXPECT_EQ(shots[0].settings.get("resolution"), nlohmann::json({64, 32}));
@@ -91,7 +93,8 @@ TEST_F(Batches, PresetsInheritAndShotsWin) {
 TEST_F(Batches, CommandLineWinsOverTheFileButForMarkedValues) {
     SettingSources sources;
     sources.assignments = {{Assignment::Kind::set, "exposure", "9"}, {Assignment::Kind::set, "time", "9"}};
-    const auto shots = shotsOfBatch(write(R"({"shots": [{"scene": "x.gltf", "exposure": 1, "!time": 1}]})"), sources);
+    const auto shots =
+        shotsOfBatch(write(R"({"shots": [{"scene": "x.gltf", "exposure": 1, "!time": 1}]})"), sources);
     EXPECT_EQ(shots[0].settings.get("exposure"), 9.0);
     EXPECT_EQ(shots[0].settings.get("time"), 1.0);
 }
@@ -100,15 +103,25 @@ TEST_F(Batches, MistakesAreNamedWithTheirPlace) {
     EXPECT_THAT(refusal("{"), HasSubstr("jobs.json:1: not JSON"));
     EXPECT_THAT(refusal(R"({"shots": []})"), HasSubstr("at least one"));
     EXPECT_THAT(refusal(R"({"shot": []})"), HasSubstr("unknown key 'shot'"));
-    EXPECT_THAT(refusal(R"({"shots": [{"preset": "a"}]})"), HasSubstr("shots[0]: expected an object with a \"scene\""));
-    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "preset": "a"}]})"), HasSubstr("preset 'a' is not defined"));
-    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "expsure": 1}]})"), HasSubstr("shots[0]: unknown setting 'expsure'; did you mean 'exposure'"));
-    EXPECT_THAT(refusal(R"({"presets": {"a": {"inherits": "b"}, "b": {"inherits": "a"}}, "shots": [{"scene": "x", "preset": "a"}]})"),
-                HasSubstr("inherits from itself"));
-    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "output": "a.png"}, {"scene": "y.gltf", "output": "a.png"}]})"),
-                HasSubstr("is the name of two pictures"));
-    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "output": "a.bmp"}]})"), HasSubstr("expected .png, .jpg, .exr or .hdr"));
-    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "output": "a.png", "aov": ["radiance", "depth"]}]})"), HasSubstr(".exr"));
+    EXPECT_THAT(refusal(R"({"shots": [{"preset": "a"}]})"),
+                HasSubstr("shots[0]: expected an object with a \"scene\""));
+    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "preset": "a"}]})"),
+                HasSubstr("preset 'a' is not defined"));
+    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "expsure": 1}]})"),
+                HasSubstr("shots[0]: unknown setting 'expsure'; did you mean 'exposure'"));
+    EXPECT_THAT(
+        refusal(
+            R"({"presets": {"a": {"inherits": "b"}, "b": {"inherits": "a"}}, "shots": [{"scene": "x", "preset": "a"}]})"),
+        HasSubstr("inherits from itself"));
+    EXPECT_THAT(
+        refusal(
+            R"({"shots": [{"scene": "x.gltf", "output": "a.png"}, {"scene": "y.gltf", "output": "a.png"}]})"),
+        HasSubstr("is the name of two pictures"));
+    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "output": "a.bmp"}]})"),
+                HasSubstr("expected .png, .jpg, .exr or .hdr"));
+    EXPECT_THAT(
+        refusal(R"({"shots": [{"scene": "x.gltf", "output": "a.png", "aov": ["radiance", "depth"]}]})"),
+        HasSubstr(".exr"));
 }
 
 TEST(Configs, BlocksApplyToMatchingScenes) {

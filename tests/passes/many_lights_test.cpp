@@ -20,7 +20,8 @@ Scene floorWithLights(int count, std::optional<double> range, bool spots = false
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 position(place(random), height(random), place(random));
         const glm::dvec3 intensity(colour(random), colour(random), colour(random));
-        Light light = spots ? spot(position, position - glm::dvec3(0.2, 1, 0.1), intensity, 0.3, 0.5) : point(position, intensity);
+        Light light = spots ? spot(position, position - glm::dvec3(0.2, 1, 0.1), intensity, 0.3, 0.5)
+                            : point(position, intensity);
         light.range = range;
         scene.lights.push_back(light);
     }
@@ -38,8 +39,8 @@ class ManyLights : public testing::TestWithParam<int> {};
 TEST_P(ManyLights, EveryPixelIsTheSumOfAllLights) {
     const int count = GetParam();
     const Scene scene = floorWithLights(count, 3.0);
-    const Image image = render(scene, overview(),
-                               smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::position}));
+    const Image image = render(
+        scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::position}));
     const size_t px = channelIndex(image, "position.X");
     int lit = 0;
     for (int y = 0; y < image.height; y += 3)
@@ -51,12 +52,12 @@ TEST_P(ManyLights, EveryPixelIsTheSumOfAllLights) {
             for (const Light& light : scene.lights) {
                 const glm::dvec3 toLight = light.position - position;
                 const double cosine = std::max(0.0, glm::normalize(toLight).y);
-                sum += light.intensity * (distanceAttenuation(glm::dot(toLight, toLight), light.range) * cosine *
-                                          scene.materials[0].values[0] / std::numbers::pi);
+                sum += light.intensity * (distanceAttenuation(glm::dot(toLight, toLight), light.range) *
+                                          cosine * scene.materials[0].values[0] / std::numbers::pi);
             }
             lit += sum.x > 0.0;
-            // Position from depth is off by 6e-8 of 30 m, 2e-6 m, which a light 0.2 m above the floor sees as 1e-5 of
-            // its distance; its square and the cosine multiply that by 3, and the window by up to 4.
+            // Position from depth is off by 6e-8 of 30 m, 2e-6 m, which a light 0.2 m above the floor sees as
+            // 1e-5 of its distance; its square and the cosine multiply that by 3, and the window by up to 4.
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(static_cast<double>(pixel[c]), sum[c], 1.2e-4 * sum[c] + 1e-7) << x << ", " << y;
         }
@@ -67,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Counts, ManyLights, testing::Values(1, 16, 100, 1000, 1
 TEST(Clusters, SpotsInClustersGiveThePictureOfOneLoop) {
     const Scene scene = floorWithLights(200, 3.0, true);
     const Image lists = render(scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32}));
-    const Image loop = render(scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32, .clusterFrom = 0}));
+    const Image loop =
+        render(scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32, .clusterFrom = 0}));
     // The same terms in the same order, but for zeros: light that a list leaves out adds exactly nothing.
     for (size_t i = 0; i < lists.values.size(); ++i)
         ASSERT_NEAR(lists.values[i], loop.values[i], 1e-6f * loop.values[i]);
@@ -78,7 +80,8 @@ TEST(Clusters, LightsWithAndWithoutRangeMix) {
     const Scene others = floorWithLights(5, {});
     scene.lights.insert(scene.lights.begin() + 20, others.lights.begin(), others.lights.end());
     const Image lists = render(scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32}));
-    const Image loop = render(scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32, .clusterFrom = 0}));
+    const Image loop =
+        render(scene, overview(), smallPicture({.samples = 1, .gbufferBits = 32, .clusterFrom = 0}));
     const double budget = 55 * 6e-8 * 2;  // the order of 55 positive terms differs
     for (size_t i = 0; i < lists.values.size(); ++i)
         ASSERT_NEAR(lists.values[i], loop.values[i], budget * static_cast<double>(loop.values[i]));
@@ -96,7 +99,8 @@ TEST(Clusters, NoPointWithinRangeIsMissed) {
         const ClusterGrid grid(view, 0.5, 60.0);
         std::vector<LightVolume> lights;
         for (int i = 0; i < 300; ++i) {
-            LightVolume light{(glm::dvec3(unit(random), unit(random), unit(random)) - 0.5) * 60.0, 0.2 + 6.0 * unit(random)};
+            LightVolume light{(glm::dvec3(unit(random), unit(random), unit(random)) - 0.5) * 60.0,
+                              0.2 + 6.0 * unit(random)};
             if (i % 2) {
                 light.axis = glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)) - 0.5);
                 light.coneAngle = 0.05 + unit(random) * 1.4;
@@ -111,17 +115,24 @@ TEST(Clusters, NoPointWithinRangeIsMissed) {
             const double z = 0.5 * std::pow(120.0, unit(random));
             const glm::dvec3 p = view.rayOrigin + x * view.rayOriginDx + y * view.rayOriginDy +
                                  z * (view.rayDirection + x * view.rayDirectionDx + y * view.rayDirectionDy);
-            const float slice = std::clamp(std::log2(static_cast<float>(z)) * factors.x + factors.y, 0.0f, factors.z - 1.0f);
-            const size_t cluster = (static_cast<size_t>(slice) * static_cast<size_t>(grid.rows()) + static_cast<size_t>(y) / 64) *
-                                       static_cast<size_t>(grid.columns()) + static_cast<size_t>(x) / 64;
+            const float slice =
+                std::clamp(std::log2(static_cast<float>(z)) * factors.x + factors.y, 0.0f, factors.z - 1.0f);
+            const size_t cluster = (static_cast<size_t>(slice) * static_cast<size_t>(grid.rows()) +
+                                    static_cast<size_t>(y) / 64) *
+                                       static_cast<size_t>(grid.columns()) +
+                                   static_cast<size_t>(x) / 64;
             for (uint32_t l = 0; l < lights.size(); ++l) {
                 const glm::dvec3 v = p - lights[l].center;
                 if (glm::length(v) >= lights[l].radius) continue;
-                if (lights[l].coneAngle > 0.0 && glm::dot(glm::normalize(v), lights[l].axis) < std::cos(lights[l].coneAngle)) continue;
+                if (lights[l].coneAngle > 0.0 &&
+                    glm::dot(glm::normalize(v), lights[l].axis) < std::cos(lights[l].coneAngle))
+                    continue;
                 ++inside;
                 const auto first = lists.indices.begin() + lists.ranges[2 * cluster];
-                ASSERT_TRUE(std::find(first, first + lists.ranges[2 * cluster + 1], l) != first + lists.ranges[2 * cluster + 1])
-                    << "light " << l << " at " << x << ", " << y << ", " << z << (orthographic ? " orthographic" : "");
+                ASSERT_TRUE(std::find(first, first + lists.ranges[2 * cluster + 1], l) !=
+                            first + lists.ranges[2 * cluster + 1])
+                    << "light " << l << " at " << x << ", " << y << ", " << z
+                    << (orthographic ? " orthographic" : "");
             }
         }
         EXPECT_GT(inside, 1000);

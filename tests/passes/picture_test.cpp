@@ -24,7 +24,9 @@ TEST(Picture, WhiteLambertPlaneShowsIrradianceOverPi) {
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x)
                 for (int c = 0; c < 3; ++c)
-                    ASSERT_NEAR(static_cast<double>(image.pixel(x, y)[c]) / (irradiance[c] / std::numbers::pi), 1.0, 1e-6)
+                    ASSERT_NEAR(
+                        static_cast<double>(image.pixel(x, y)[c]) / (irradiance[c] / std::numbers::pi), 1.0,
+                        1e-6)
                         << quality << " at " << x << ", " << y;
     }
 }
@@ -47,7 +49,8 @@ glm::dvec3 twinRadiance(const Scene& scene, const Material& material, const glm:
             wi = glm::normalize(toLight);
             attenuation = distanceAttenuation(glm::dot(toLight, toLight), light.range);
             if (light.type == LightType::spot)
-                attenuation *= spotAttenuation(-glm::dot(wi, light.direction), light.innerConeAngle, light.outerConeAngle);
+                attenuation *= spotAttenuation(-glm::dot(wi, light.direction), light.innerConeAngle,
+                                               light.outerConeAngle);
         }
         sum += light.intensity * attenuation * brdf.fCos(Directions(local * wi, wo), material.values);
     }
@@ -57,9 +60,9 @@ glm::dvec3 twinRadiance(const Scene& scene, const Material& material, const glm:
 TEST(Picture, EveryModelUnderEveryLightIsItsTwin) {
     const Scene scene = modelsAndLights();
     const Camera camera = frontCamera(5.0);
-    const Image image =
-        render(scene, camera, smallPicture({.samples = 1, .gbufferBits = 32},
-                                           {Aov::radiance, Aov::position, Aov::normal, Aov::materialId}));
+    const Image image = render(scene, camera,
+                               smallPicture({.samples = 1, .gbufferBits = 32},
+                                            {Aov::radiance, Aov::position, Aov::normal, Aov::materialId}));
     const size_t px = channelIndex(image, "position.X");
     const size_t nx = channelIndex(image, "normal.X");
     const size_t id = channelIndex(image, "material.id");
@@ -80,8 +83,8 @@ TEST(Picture, EveryModelUnderEveryLightIsItsTwin) {
             const double cosView = glm::dot(normal, glm::normalize(eye - position));
             if (cosView < 0.05) continue;  // a grazing pixel's condition number is beyond this test's budget
             const glm::dvec3 expected = twinRadiance(scene, material, position, normal, eye);
-            // The AOVs are rounded to float: directions are off by up to 16 eps (position, normal, two normalised
-            // vectors), which the lobe's sharpness and the cosines multiply.
+            // The AOVs are rounded to float: directions are off by up to 16 eps (position, normal, two
+            // normalised vectors), which the lobe's sharpness and the cosines multiply.
             const double sharpness = requireBrdf(material.brdf).lobeSharpness(material.values);
             const double budget = 16.0 * kEpsilon * (8.0 + 2.0 * sharpness + 2.0 / cosView);
             const double brightest = std::max({expected.x, expected.y, expected.z});
@@ -98,7 +101,8 @@ TEST(Picture, DeferredAndForwardAgreeToRounding) {
     const Scene scene = modelsAndLights();
     const Image deferred = render(scene, frontCamera(5.0));
     const Image forward =
-        render(scene, frontCamera(5.0), smallPicture({.samples = 1, .gbufferBits = 32, .shading = Shading::forward}));
+        render(scene, frontCamera(5.0),
+               smallPicture({.samples = 1, .gbufferBits = 32, .shading = Shading::forward}));
     int compared = 0;
     for (int y = 0; y < deferred.height; ++y)
         for (int x = 0; x < deferred.width; ++x) {
@@ -106,10 +110,12 @@ TEST(Picture, DeferredAndForwardAgreeToRounding) {
             const float* b = forward.pixel(x, y);
             ASSERT_EQ(a[3], b[3]) << "coverage at " << x << ", " << y;
             const double brightest = static_cast<double>(std::max({b[0], b[1], b[2]}));
-            // Octahedral floats are off by 3.2e-7 rad and depth by 6e-8 relative; the sharpest lobe here is alpha 0.25,
-            // 8 per rad, and the grazing silhouettes multiply by 1 / cos, up to 1 / 0.05 at a pixel's width.
+            // Octahedral floats are off by 3.2e-7 rad and depth by 6e-8 relative; the sharpest lobe here is
+            // alpha 0.25, 8 per rad, and the grazing silhouettes multiply by 1 / cos, up to 1 / 0.05 at a
+            // pixel's width.
             for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(static_cast<double>(a[c]), static_cast<double>(b[c]), 3.8e-7 * (8.0 + 20.0) * brightest + 1e-12)
+                ASSERT_NEAR(static_cast<double>(a[c]), static_cast<double>(b[c]),
+                            3.8e-7 * (8.0 + 20.0) * brightest + 1e-12)
                     << x << ", " << y;
             compared += brightest > 0.0;
         }
@@ -130,7 +136,8 @@ TEST(Picture, WithoutClipControlThePictureIsTheSameToRounding) {
     const Scene scene = modelsAndLights();
     const Image reversed = render(scene, frontCamera(5.0));
     eglContext().release();
-    const auto masked = gl::Context::create({.backend = gl::Backend::egl, .maskedExtensions = {"GL_ARB_clip_control"}});
+    const auto masked =
+        gl::Context::create({.backend = gl::Backend::egl, .maskedExtensions = {"GL_ARB_clip_control"}});
     const Image linear = render(*masked, scene, frontCamera(5.0));
     masked->release();
     for (size_t i = 0; i < reversed.values.size(); ++i)
@@ -140,8 +147,9 @@ TEST(Picture, WithoutClipControlThePictureIsTheSameToRounding) {
 TEST(Picture, ContributionsSumToRadianceExactly) {
     Scene scene = modelsAndLights();
     const Image plain = render(scene, frontCamera(5.0));
-    const Image split = render(scene, frontCamera(5.0),
-                               smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::contributions}));
+    const Image split =
+        render(scene, frontCamera(5.0),
+               smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::contributions}));
     for (int y = 0; y < plain.height; ++y)
         for (int x = 0; x < plain.width; ++x)
             for (size_t c = 0; c < 4; ++c)
@@ -158,8 +166,9 @@ TEST(Picture, WhatIsLeftOutChangesNoBit) {
     Scene scene = modelsAndLights();
     const Image thin = render(scene, frontCamera(5.0));
     // Asking for the material AOV adds a channel to the G-buffer and a pass; radiance must not change.
-    const Image fat = render(scene, frontCamera(5.0),
-                             smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::materialId, Aov::albedo}));
+    const Image fat = render(
+        scene, frontCamera(5.0),
+        smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::materialId, Aov::albedo}));
     for (int y = 0; y < thin.height; ++y)
         for (int x = 0; x < thin.width; ++x)
             for (size_t c = 0; c < 4; ++c)
@@ -189,7 +198,8 @@ TEST(Picture, BlendedPaneLetsThroughWhatItDoesNotCover) {
 TEST(Picture, MaskedSurfaceIsCut) {
     Scene scene;
     const int material = addMaterial(scene, kUnlit);
-    const int texture = addImage(scene, 2, 1, 4, [](int x, int, int c) { return c == 3 ? (x == 0 ? 0 : 255) : 255; });
+    const int texture =
+        addImage(scene, 2, 1, 4, [](int x, int, int c) { return c == 3 ? (x == 0 ? 0 : 255) : 255; });
     scene.textures[static_cast<size_t>(texture)].sampler.magnify = Filter::nearest;
     scene.materials[0].baseColorTexture.texture = texture;
     scene.materials[0].alphaMode = AlphaMode::mask;
@@ -223,7 +233,9 @@ TEST(Picture, OrthographicCameraSeesParallelLines) {
     camera.xMag = 3.0;
     camera.yMag = 2.0;
     camera.zFar = 20.0;
-    const Image deferred = render(scene, camera, smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::position, Aov::materialId}));
+    const Image deferred = render(
+        scene, camera,
+        smallPicture({.samples = 1, .gbufferBits = 32}, {Aov::radiance, Aov::position, Aov::materialId}));
     const size_t px = channelIndex(deferred, "position.X");
     int seen = 0;
     for (int y = 0; y < deferred.height; ++y)
@@ -235,11 +247,13 @@ TEST(Picture, OrthographicCameraSeesParallelLines) {
         }
     // Four discs of radius 0.55 m in a window of 6 m x 4 m.
     EXPECT_NEAR(seen, 4 * std::numbers::pi * 0.55 * 0.55 / 24.0 * 96 * 64, 40);
-    const Image forward = render(scene, camera, smallPicture({.samples = 1, .gbufferBits = 32, .shading = Shading::forward}));
+    const Image forward =
+        render(scene, camera, smallPicture({.samples = 1, .gbufferBits = 32, .shading = Shading::forward}));
     for (int y = 0; y < deferred.height; ++y)
         for (int x = 0; x < deferred.width; ++x)
             for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(deferred.pixel(x, y)[c], forward.pixel(x, y)[c], 2e-5f * std::max(1.0f, forward.pixel(x, y)[c]));
+                ASSERT_NEAR(deferred.pixel(x, y)[c], forward.pixel(x, y)[c],
+                            2e-5f * std::max(1.0f, forward.pixel(x, y)[c]));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ inline Camera frontCamera(double distance = 4.0) {
     return camera;
 }
 
-inline RenderOptions smallPicture(Quality quality = {.samples = 1, .gbufferBits = 32}, AovSet aovs = {Aov::radiance}) {
+inline RenderOptions smallPicture(Quality quality = {.samples = 1, .gbufferBits = 32},
+                                  AovSet aovs = {Aov::radiance}) {
     RenderOptions options;
     options.width = 96;
     options.height = 64;
@@ -71,7 +72,8 @@ inline Difference compare(const Image& a, const Image& b) {
             for (size_t c = 0; c < a.channelCount(); ++c) {
                 const float va = a.pixel(x, y)[c];
                 const float vb = b.pixel(x, y)[c];
-                const double difference = relativeDifference(static_cast<double>(va), static_cast<double>(vb));
+                const double difference =
+                    relativeDifference(static_cast<double>(va), static_cast<double>(vb));
                 if (!(difference <= worst.largest)) worst = {difference, x, y, a.channels[c], va, vb};
             }
     return worst;
@@ -86,7 +88,8 @@ inline Scene modelsAndLights() {
     int column = 0;
     for (const Brdf& brdf : allBrdfs()) {
         const int material = addMaterial(scene, brdf.name);
-        scene.materials[static_cast<size_t>(material)].values = brdf.fromMetallicRoughness({{0.8, 0.5, 0.3}, 0.3, 0.5});
+        scene.materials[static_cast<size_t>(material)].values =
+            brdf.fromMetallicRoughness({{0.8, 0.5, 0.3}, 0.3, 0.5});
         const int sphere = addSphere(scene, material);
         const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(1.2 * column - 1.8, 0, 0));
         addInstance(scene, sphere, glm::scale(place, glm::dvec3(0.55)));

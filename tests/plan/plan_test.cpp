@@ -67,7 +67,8 @@ TEST(Plan, TangentsOnlyWithNormalMaps) {
     Scene scene = litQuad();
     EXPECT_FALSE(anyDefine(planOf(scene), "TANGENTS"));
     EXPECT_FALSE(reasonFor(planOf(scene), "tangents").empty());
-    scene.materials[0].normalTexture.texture = test::addImage(scene, 1, 1, 3, [](int, int, int c) { return c == 2 ? 255 : 128; });
+    scene.materials[0].normalTexture.texture =
+        test::addImage(scene, 1, 1, 3, [](int, int, int c) { return c == 2 ? 255 : 128; });
     EXPECT_TRUE(anyDefine(planOf(scene), "TANGENTS"));
     EXPECT_TRUE(reasonFor(planOf(scene), "tangents").empty());
 }
@@ -136,7 +137,8 @@ TEST(Plan, EmissionAndAmbientShareTheGbufferPass) {
 
 TEST(Plan, OcclusionOnlyWhereAmbientLightCanReachIt) {
     Scene scene = litQuad();
-    scene.materials[0].occlusionTexture.texture = test::addImage(scene, 1, 1, 1, [](int, int, int) { return 100; });
+    scene.materials[0].occlusionTexture.texture =
+        test::addImage(scene, 1, 1, 1, [](int, int, int) { return 100; });
     EXPECT_FALSE(anyDefine(planOf(scene), "OCCLUSION"));
     EXPECT_EQ(reasonFor(planOf(scene), "images[0] image1"), "no material in use reads it");
     scene.ambientRadiance = glm::dvec3(0.1);

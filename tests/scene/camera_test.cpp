@@ -33,8 +33,9 @@ TEST_P(Views, RayOfAPixelProjectsToThatPixelAndDepthGivesItsDistance) {
     for (const double x : {0.5, 100.0, 319.5})
         for (const double y : {0.5, 77.0, 199.5})
             for (const double z : {0.11, 1.0, 49.0}) {
-                const glm::dvec3 p = view.rayOrigin + x * view.rayOriginDx + y * view.rayOriginDy +
-                                     z * (view.rayDirection + x * view.rayDirectionDx + y * view.rayDirectionDy);
+                const glm::dvec3 p =
+                    view.rayOrigin + x * view.rayOriginDx + y * view.rayOriginDy +
+                    z * (view.rayDirection + x * view.rayDirectionDx + y * view.rayDirectionDy);
                 EXPECT_NEAR(glm::dot(p, view.forward), z, 1e-12 * z);
                 const glm::dvec4 clip = view.clipFromRelative * glm::dvec4(p, 1.0);
                 EXPECT_NEAR((clip.x / clip.w * 0.5 + 0.5) * 320, x, 1e-9);
@@ -64,7 +65,8 @@ TEST(Camera, WindowOfTheFileStaysVisibleInPicturesOfOtherShapes) {
         const double halfHeight = glm::length(view.rayDirectionDy) * height / 2;
         EXPECT_GE(halfWidth, 2.0 * t * (1 - 1e-12));
         EXPECT_GE(halfHeight, t * (1 - 1e-12));
-        EXPECT_TRUE(std::abs(halfWidth - 2.0 * t) < 1e-12 || std::abs(halfHeight - t) < 1e-12) << "and no more than needed";
+        EXPECT_TRUE(std::abs(halfWidth - 2.0 * t) < 1e-12 || std::abs(halfHeight - t) < 1e-12)
+            << "and no more than needed";
         EXPECT_NEAR(halfWidth / width, halfHeight / height, 1e-12) << "square pixels";
     }
 }
@@ -78,7 +80,8 @@ TEST(Camera, FramingHoldsTheBoundsWholeAndTight) {
         const View view = makeView(camera, static_cast<int>(1000 * aspect), 1000);
         double largest = 0.0;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 p(corner & 1 ? bounds.upper.x : bounds.lower.x, corner & 2 ? bounds.upper.y : bounds.lower.y,
+            const glm::dvec3 p(corner & 1 ? bounds.upper.x : bounds.lower.x,
+                               corner & 2 ? bounds.upper.y : bounds.lower.y,
                                corner & 4 ? bounds.upper.z : bounds.lower.z);
             const glm::dvec4 clip = view.clipFromRelative * glm::dvec4(p - view.eye, 1.0);
             EXPECT_LT(std::abs(clip.x), clip.w);

@@ -61,7 +61,8 @@ inline int addSphere(Scene& scene, int material, int n = 48) {
         for (int j = 0; j <= 2 * n; ++j) {
             const double theta = std::numbers::pi * i / n;
             const double phi = std::numbers::pi * j / n;
-            const glm::vec3 p(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+            const glm::vec3 p(std::sin(theta) * std::cos(phi), std::cos(theta),
+                              -std::sin(theta) * std::sin(phi));
             sphere.positions.push_back(p);
             sphere.normals.push_back(p);
             sphere.uvs[0].emplace_back(j / (2.0 * n), static_cast<double>(i) / n);
@@ -69,7 +70,8 @@ inline int addSphere(Scene& scene, int material, int n = 48) {
     const auto index = [n](int i, int j) { return static_cast<uint32_t>(i * (2 * n + 1) + j); };
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < 2 * n; ++j)
-            for (uint32_t v : {index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j), index(i + 1, j + 1), index(i, j + 1)})
+            for (uint32_t v : {index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j),
+                               index(i + 1, j + 1), index(i, j + 1)})
                 sphere.indices.push_back(v);
     scene.primitives.push_back(sphere);
     return static_cast<int>(scene.primitives.size()) - 1;
@@ -83,7 +85,8 @@ inline Light directional(const glm::dvec3& direction, const glm::dvec3& irradian
     return light;
 }
 
-inline Light point(const glm::dvec3& position, const glm::dvec3& intensity, std::optional<double> range = {}) {
+inline Light point(const glm::dvec3& position, const glm::dvec3& intensity,
+                   std::optional<double> range = {}) {
     Light light;
     light.type = LightType::point;
     light.position = position;
@@ -92,8 +95,8 @@ inline Light point(const glm::dvec3& position, const glm::dvec3& intensity, std:
     return light;
 }
 
-inline Light spot(const glm::dvec3& position, const glm::dvec3& target, const glm::dvec3& intensity, double inner,
-                  double outer) {
+inline Light spot(const glm::dvec3& position, const glm::dvec3& target, const glm::dvec3& intensity,
+                  double inner, double outer) {
     Light light;
     light.type = LightType::spot;
     light.position = position;
