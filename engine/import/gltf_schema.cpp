@@ -164,8 +164,8 @@ const ObjectSchema& texture() {
 const ObjectSchema& rootExtensions() {
     // Right angles that were rounded to float on their way are a little over pi / 2.
     constexpr double kRightAngle = kPi / 2 + 1e-6;
-    static const ObjectSchema spot{
-        {optional("innerConeAngle", number(0.0, kRightAngle)), optional("outerConeAngle", number(0.0, kRightAngle))}};
+    static const ObjectSchema spot{{optional("innerConeAngle", number(0.0, kRightAngle)),
+                                    optional("outerConeAngle", number(0.0, kRightAngle))}};
     static const ObjectSchema light{
         {optional("name", text()),
          required("type", oneOf(std::vector<std::string>{"directional", "point", "spot"})),

@@ -20,7 +20,8 @@ Bounds Scene::bounds() const {
         const Bounds& box = local[static_cast<size_t>(instance.primitive)];
         if (box.empty) continue;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 point((corner & 1) != 0 ? box.upper.x : box.lower.x, (corner & 2) != 0 ? box.upper.y : box.lower.y,
+            const glm::dvec3 point((corner & 1) != 0 ? box.upper.x : box.lower.x,
+                                   (corner & 2) != 0 ? box.upper.y : box.lower.y,
                                    (corner & 4) != 0 ? box.upper.z : box.lower.z);
             world.add(glm::dvec3(instance.worldFromLocal * glm::dvec4(point, 1.0)));
         }

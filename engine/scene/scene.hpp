@@ -60,7 +60,7 @@ struct Material {
     TextureSlot baseColorTexture;
     TextureSlot metallicRoughnessTexture;
 
-    float alpha = 1.0f;          ///< base colour factor's alpha; multiplied by baseColorTexture's alpha
+    float alpha = 1.0f;  ///< base colour factor's alpha; multiplied by baseColorTexture's alpha
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
@@ -69,7 +69,7 @@ struct Material {
     float normalScale = 1.0f;
     TextureSlot occlusionTexture;
     float occlusionStrength = 1.0f;
-    glm::vec3 emission{0.0f};    ///< factor times emissive strength: radiance, W/(m^2 sr)
+    glm::vec3 emission{0.0f};  ///< factor times emissive strength: radiance, W/(m^2 sr)
     TextureSlot emissionTexture;
 };
 
@@ -78,11 +78,12 @@ struct Primitive {
     std::string name;
     int material = -1;  ///< index into Scene::materials, always valid after import
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;      ///< never empty after import
-    std::vector<glm::vec4> tangents;     ///< w = handedness; present iff the material has a normal map or needs a frame
+    std::vector<glm::vec3> normals;  ///< never empty after import
+    std::vector<glm::vec4>
+        tangents;  ///< w = handedness; present iff the material has a normal map or needs a frame
     std::array<std::vector<glm::vec2>, 2> uvs;
-    std::vector<glm::vec4> colors;       ///< linear RGBA, multiplied into base colour and alpha
-    std::vector<uint32_t> indices;       ///< 3 a triangle, all below positions.size()
+    std::vector<glm::vec4> colors;  ///< linear RGBA, multiplied into base colour and alpha
+    std::vector<uint32_t> indices;  ///< 3 a triangle, all below positions.size()
 
     size_t triangleCount() const { return indices.size() / 3; }
 };
@@ -98,25 +99,26 @@ enum class LightType : uint8_t { directional, point, spot };
 struct Light {
     std::string name;
     LightType type = LightType::point;
-    glm::dvec3 position{0.0};          ///< world
+    glm::dvec3 position{0.0};              ///< world
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< world, unit, the way light travels
     /// directional: irradiance on a facing surface, W/m^2; point, spot: radiant intensity, W/sr.
     glm::dvec3 intensity{1.0};
-    std::optional<double> range;       ///< metres; no window where absent
-    double innerConeAngle = 0.0;       ///< spot, radians
+    std::optional<double> range;  ///< metres; no window where absent
+    double innerConeAngle = 0.0;  ///< spot, radians
     double outerConeAngle = 0.7853981633974483;
 };
 
 struct Camera {
     std::string name;
-    glm::dmat4 worldFromCamera{1.0};   ///< rigid; looks along its -Z, +Y up
+    glm::dmat4 worldFromCamera{1.0};  ///< rigid; looks along its -Z, +Y up
     bool orthographic = false;
     double verticalFov = 0.7853981633974483;  ///< radians, perspective
-    std::optional<double> aspect;      ///< width / height where the file fixes it (then the picture is fitted inside)
-    double xMag = 1.0;                 ///< half width, orthographic
-    double yMag = 1.0;                 ///< half height, orthographic
+    std::optional<double>
+        aspect;         ///< width / height where the file fixes it (then the picture is fitted inside)
+    double xMag = 1.0;  ///< half width, orthographic
+    double yMag = 1.0;  ///< half height, orthographic
     double zNear = 0.01;
-    std::optional<double> zFar;        ///< absent: infinite
+    std::optional<double> zFar;  ///< absent: infinite
 };
 
 struct Bounds {
@@ -129,7 +131,7 @@ struct Bounds {
 };
 
 struct Scene {
-    std::string name;   ///< file stem: what {model} in a template stands for
+    std::string name;  ///< file stem: what {model} in a template stands for
     std::string file;
     std::string contentHash;  ///< of the bytes of the file and of everything that it refers to
     std::vector<Bitmap> images;
@@ -141,11 +143,11 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::optional<glm::dvec3> ambientRadiance;  ///< LOBE_ambient, W/(m^2 sr)
-    std::vector<std::string> warnings;  ///< one line each: what was read otherwise than the file says
-    std::vector<double> animationDurations;  ///< seconds, one an animation
+    std::vector<std::string> warnings;          ///< one line each: what was read otherwise than the file says
+    std::vector<double> animationDurations;     ///< seconds, one an animation
 
-    Bounds bounds() const;              ///< of all instances, in world space
-    size_t triangleCount() const;       ///< drawn, counting each instance
+    Bounds bounds() const;         ///< of all instances, in world space
+    size_t triangleCount() const;  ///< drawn, counting each instance
 };
 
 }  // namespace lobe
