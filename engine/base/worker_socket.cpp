@@ -135,12 +135,10 @@ Outcome receiveBytes(int socket, char* data, size_t size, Descriptors& descripto
             takeDescriptors(header, descriptors);
             data += got;
             size -= static_cast<size_t>(got);
-        } else if (got == 0) {
-            return Outcome::closed;
-        } else if (errno == EAGAIN) {
+        } else if (got < 0 && errno == EAGAIN) {
             if (const Outcome waited = waitFor(socket, POLLIN, deadline); waited != Outcome::done)
                 return waited;
-        } else if (errno != EINTR) {
+        } else if (got == 0 || errno != EINTR) {
             return Outcome::closed;
         }
     }

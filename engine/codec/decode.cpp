@@ -9,7 +9,7 @@
 namespace lobe::codec {
 namespace {
 
-ComponentType componentType(OIIO::TypeDesc stored) {
+ComponentType componentType(const OIIO::TypeDesc& stored) {
     switch (stored.basetype) {
         case OIIO::TypeDesc::UINT8:
             return ComponentType::u8;

@@ -16,7 +16,7 @@ namespace {
 constexpr float kLargestHalf = 65504.0F;
 constexpr float kLargestRgbe = 1e38F;  // the shared exponent ends at 2^127
 
-std::string encodeWithLibrary(Format format, const OIIO::ImageSpec& spec, OIIO::TypeDesc given,
+std::string encodeWithLibrary(Format format, const OIIO::ImageSpec& spec, const OIIO::TypeDesc& given,
                               const void* pixels) {
     setUpOpenImageIo();
     const std::string name = openImageIoName(format);

@@ -30,8 +30,8 @@ public:
     std::string terminated() {
         const std::string_view rest = textOf(bytes_);
         const size_t end = rest.find('\0');
-        if (end == std::string_view::npos || end > 255)
-            throw InputError("EXR header is damaged: a name does not end");
+        constexpr size_t kLongestName = 255;  // npos is longer too
+        if (end > kLongestName) throw InputError("EXR header is damaged: a name does not end");
         std::string name(rest.substr(0, end));
         text(end + 1);
         return name;

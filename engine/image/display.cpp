@@ -86,7 +86,7 @@ Bitmap toDisplay(const Image& image, float exposure, ToneMapping curve, bool kee
                 out[c] = table.encode(chunk.rgb[c][i]);
         if (keepAlpha)
             for (size_t i = 0; i < count; ++i)
-                (out - 4 * (count - i))[3] = static_cast<uint8_t>(chunk.alpha[i] * 255.0F + 0.5F);
+                (out - 4 * (count - i))[3] = static_cast<uint8_t>(std::lround(chunk.alpha[i] * 255.0F));
     }
     return bitmap;
 }
