@@ -7,9 +7,9 @@
 
 namespace lobe {
 
-/// The candidate nearest to `name` by edit distance (Damerau's, adjacent swaps count one), or nothing when even the
-/// nearest differs in more than a third of its letters. Ties go to the earlier candidate. Letter case and the
-/// difference between '-' and '_' do not count.
+/// The candidate nearest to `name` by edit distance (Damerau's, adjacent swaps count one), or nothing when
+/// even the nearest differs in more than a third of its letters. Ties go to the earlier candidate. Letter
+/// case and the difference between '-' and '_' do not count.
 std::optional<std::string> closestName(std::string_view name, const std::vector<std::string>& candidates);
 
 /// "; did you mean 'NAME'?" or the empty string: to be appended to a message about an unknown name.
