@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/resources.hpp"
 #include "gl/debug.hpp"
 #include "gl/objects.hpp"
@@ -129,6 +130,11 @@ Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(contex
 Renderer::~Renderer() = default;
 
 void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options) {
+    const int most = state_->capabilities.maxTextureSize;
+    if (options.width > most || options.height > most)
+        throw UsageError("resolution " + std::to_string(options.width) + "x" +
+                         std::to_string(options.height) + "; expected at most " + std::to_string(most) +
+                         " a side, the driver's limit");
     FramePlan plan = planFrame(summarise(*scene), options.quality, state_->capabilities, options.aovs);
     state_->current.reset();
     state_->current = std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan),

@@ -50,15 +50,27 @@ Scene withBrdf(const Scene& scene, const Brdf& brdf) {
     for (Material& material : result.materials) {
         if (material.brdf == kUnlit || material.brdf == brdf.name) continue;
         MetallicRoughness description = material.metallicRoughness;
+        TextureSlot baseColorTexture = material.baseColorTexture;
+        if (material.brdf != "metallic_roughness") {
+            // A named model's own colour says more than the glTF material that it replaces.
+            const Brdf& old = requireBrdf(material.brdf);
+            const int color = old.parameterIndex(old.baseColorParameter);
+            const auto offset = static_cast<size_t>(old.valueOffset(color));
+            description.baseColor = {material.values[offset], material.values[offset + 1],
+                                     material.values[offset + 2]};
+            baseColorTexture = material.textures[static_cast<size_t>(color)];
+        }
         description.roughness *= meanOfChannel(scene, material.metallicRoughnessTexture, 1);
         description.metallic *= meanOfChannel(scene, material.metallicRoughnessTexture, 2);
         material.brdf = brdf.name;
         material.values = brdf.fromMetallicRoughness(description);
         material.textures.assign(brdf.parameters.size(), TextureSlot{});
         material.textureChannels.assign(brdf.parameters.size(), 0);
-        if (baseColor >= 0) material.textures[static_cast<size_t>(baseColor)] = material.baseColorTexture;
+        if (baseColor >= 0) material.textures[static_cast<size_t>(baseColor)] = baseColorTexture;
         if (brdf.name == "metallic_roughness") {
-            const MetallicRoughness& factors = material.metallicRoughness;
+            // Its own textures are kept: the factors, not the means.
+            MetallicRoughness factors = material.metallicRoughness;
+            factors.baseColor = description.baseColor;
             material.values = brdf.fromMetallicRoughness(factors);
             const int roughness = brdf.parameterIndex("roughness");
             const int metallic = brdf.parameterIndex("metallic");

@@ -267,6 +267,24 @@ private:
                                std::to_string(capabilities_.maxColorAttachments));
     }
 
+    void requireFit(const char* type, int count, int texelsEach) const {
+        const int most = capabilities_.maxTextureBufferTexels / texelsEach;
+        if (count > most)
+            throw ContextError("the scene has " + plural(count, std::string(type) + " light") +
+                               "; expected at most " + std::to_string(most) +
+                               ", what the driver's buffers hold");
+    }
+
+    /// One loop of a fragment shader runs over all lights that reach everything; software drivers end loops
+    /// at 65535.
+    void requireForwardLoop(const char* type, int global) const {
+        constexpr int kMost = 65000;
+        if (global > kMost && (scene_.blended || !deferred_))
+            throw InputError("the scene has " + plural(global, std::string(type) + " light") +
+                             " without range over blended surfaces; expected at most " +
+                             std::to_string(kMost));
+    }
+
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights() {
         const int from = plan_.quality.clusterFrom;
@@ -292,6 +310,12 @@ private:
             clustered("point", scene_.pointLights, scene_.rangedPointLights, plan_.globalPointLights);
         plan_.clusteredSpot =
             clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
+        requireFit("directional", scene_.directionalLights, 2);
+        requireFit("point", scene_.pointLights, 2);
+        requireFit("spot", scene_.spotLights, 3);
+        requireForwardLoop("directional", scene_.directionalLights);
+        requireForwardLoop("point", plan_.globalPointLights);
+        requireForwardLoop("spot", plan_.globalSpotLights);
         if (!plan_.clusteredPoint && !plan_.clusteredSpot)
             leaveOut("buffer", "light clusters", "no light type has enough ranged lights for lists to pay");
     }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "support/scenes.hpp"
 
 namespace lobe {
@@ -200,6 +201,52 @@ TEST(Plan, TextAndJsonNameEveryPassChannelAndOmission) {
         EXPECT_THAT(text, testing::HasSubstr(leftOut.kind + " " + leftOut.name + ": " + leftOut.reason));
         EXPECT_FALSE(leftOut.reason.empty());
     }
+}
+
+TEST(Plan, MoreLightsThanTheDriversBuffersHoldAreRefused) {
+    Scene scene = litQuad();
+    scene.lights.resize(40000, test::point({0, 0, 1}, glm::dvec3(1.0)));
+    Capabilities smallest = modern();
+    smallest.maxTextureBufferTexels = 65536;
+    EXPECT_THROW(planFrame(summarise(scene), {}, smallest), ContextError);
+    smallest.maxTextureBufferTexels = 1 << 27;
+    EXPECT_NO_THROW(planFrame(summarise(scene), {}, smallest));
+}
+
+TEST(Overrides, AnotherModelTakesTheColourOfTheNamedOne) {
+    Scene scene = litQuad("phong");
+    test::setParameter(scene.materials[0], "diffuse", {0.1, 0.2, 0.3});
+    const Scene lambert = withBrdf(scene, requireBrdf("lambert"));
+    EXPECT_EQ(lambert.materials[0].brdf, "lambert");
+    EXPECT_EQ(lambert.materials[0].values, (ParameterValues{0.1, 0.2, 0.3}));
+    const Scene unlit = withBrdf(litQuad(kUnlit), requireBrdf("lambert"));
+    EXPECT_EQ(unlit.materials[0].brdf, kUnlit) << "unlit surfaces take no light under any model";
+}
+
+TEST(Overrides, TexturedRoughnessIsTakenAsItsMean) {
+    Scene scene = litQuad("metallic_roughness");
+    scene.materials[0].metallicRoughness.roughness = 0.8;
+    scene.materials[0].metallicRoughnessTexture.texture =
+        test::addImage(scene, 2, 1, 3, [](int x, int, int) { return x == 0 ? 0 : 255; });
+    const Scene blinn = withBrdf(scene, requireBrdf("blinn_phong"));
+    MetallicRoughness expected = scene.materials[0].metallicRoughness;
+    expected.roughness *= 0.5;
+    expected.metallic *= 0.5;
+    EXPECT_EQ(blinn.materials[0].values, requireBrdf("blinn_phong").fromMetallicRoughness(expected));
+}
+
+TEST(Overrides, DefaultLightOnlyWhereNothingLightsWhatTakesLight) {
+    const Camera camera = lookAt({0, 0, 4}, {0, 0, 0}, 0.7);
+    Scene lit = litQuad();
+    EXPECT_FALSE(addDefaultLight(lit, camera));
+    lit.lights.clear();
+    EXPECT_TRUE(addDefaultLight(lit, camera));
+    EXPECT_EQ(lit.lights.size(), 1u);
+    EXPECT_LT(lit.lights[0].direction.z, 0.0) << "with the camera's line of sight";
+    EXPECT_FALSE(addDefaultLight(lit, camera)) << "not twice";
+    Scene unlit = litQuad(kUnlit);
+    unlit.lights.clear();
+    EXPECT_FALSE(addDefaultLight(unlit, camera));
 }
 
 TEST(Plan, EveryPresetIsKnownAndOthersAreRefusedWithTheNearest) {
