@@ -207,7 +207,7 @@ def teapots():
     place(g, ground(12, 1.0), floor_material(g))
     studio(g, 0.2)
     g.light("spot", 40.0, (1.0, 0.9, 0.75), (-2.5, 5, 3), (0.4, -1, -0.55), cone=(8, 28))
-    g.camera((0, 1.7, 5.0), (0, 0.42, 0), 32)
+    g.camera((0, 1.7, 5.4), (0, 0.42, 0), 33)
     return g
 
 
