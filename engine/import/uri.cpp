@@ -47,19 +47,19 @@ bool decodePercent(std::string_view text, std::string& decoded) {
     return true;
 }
 
-std::array<int8_t, 256> base64Values() {
-    std::array<int8_t, 256> values{};
+std::array<int, 256> base64Values() {
+    std::array<int, 256> values{};
     values.fill(-1);
     const std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < digits.size(); ++i) {
-        values[static_cast<unsigned char>(digits[i])] = static_cast<int8_t>(i);
+        values[static_cast<unsigned char>(digits[i])] = static_cast<int>(i);
     }
     return values;
 }
 
 /// False for a foreign character, or a length that no encoder writes.
 bool decodeBase64(std::string_view text, std::vector<std::byte>& bytes) {
-    static const std::array<int8_t, 256> kValues = base64Values();
+    static const std::array<int, 256> kValues = base64Values();
     for (int padding = 0; padding < 2 && !text.empty() && text.back() == '='; ++padding) {
         text.remove_suffix(1);
     }
@@ -156,7 +156,7 @@ fs::path resolveUri(const std::string& uri, const fs::path& folder, const std::s
     if (relative.is_absolute() || startsWithDotDot(relative)) {
         refuse(file, property, uri, "a path inside the scene's folder");
     }
-    const fs::path path = (folder.empty() ? fs::path(".") : folder) / relative;
+    fs::path path = (folder.empty() ? fs::path(".") : folder) / relative;
     std::error_code failed;
     const fs::path realFolder = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, failed);
     const fs::path realPath = failed ? fs::path() : fs::weakly_canonical(path, failed);

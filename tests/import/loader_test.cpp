@@ -209,12 +209,15 @@ TEST(HostileFiles, AManyPartsMeshOnOneVertexEnds) {
     EXPECT_TRUE(isSound(scene));
 }
 
-/// 'Z' for a process that has ended and is not yet waited for.
-char stateOf(pid_t process) {
-    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-    std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+/// Whether a child has ended, with all its threads: only then are its sockets closed.
+bool hasEnded(pid_t process) {
+    const std::string folder = "/proc/" + std::to_string(process);
+    std::error_code gone;
+    const auto threads = std::distance(std::filesystem::directory_iterator(folder + "/task", gone), {});
+    std::ifstream file(folder + "/stat");
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     const size_t name = text.rfind(") ");
-    return name == std::string::npos ? 'Z' : text.at(name + 2);
+    return name == std::string::npos || (text.at(name + 2) == 'Z' && threads <= 1);
 }
 
 /// Sends a signal to each child process of this one that serves scenes; killed ones have ended when this
@@ -227,7 +230,7 @@ int signalSceneWorkers(int signal) {
         std::getline(std::ifstream("/proc/" + std::to_string(child) + "/comm"), name);
         if (name.starts_with("lobe-scene")) {
             reached += kill(child, signal) == 0 ? 1 : 0;
-            while (signal == SIGKILL && stateOf(child) != 'Z') {
+            while (signal == SIGKILL && !hasEnded(child)) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
         }
