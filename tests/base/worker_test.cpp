@@ -11,7 +11,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <thread>
 
@@ -48,14 +50,22 @@ pid_t pidOf(Worker& worker) {
     return static_cast<pid_t>(std::stol(worker.call(order("pid")).header));
 }
 
+/// Gone, or ended with all its threads and waiting for whoever inherited it.
+bool hasEnded(pid_t pid) {
+    const std::filesystem::path process = "/proc/" + std::to_string(pid);
+    std::error_code gone;
+    const std::filesystem::directory_iterator threads(process / "task", gone);
+    if (gone) return true;
+    std::ifstream stat(process / "stat");
+    std::string word;
+    std::string state;
+    stat >> word >> word >> state;
+    return state.empty() || (state == "Z" && std::distance(begin(threads), end(threads)) == 1);
+}
+
 bool endsWithin(pid_t pid, milliseconds patience) {
     const auto deadline = steady_clock::now() + patience;
-    while (kill(pid, 0) == 0) {
-        std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
-        std::string word;
-        std::string state;
-        stat >> word >> word >> state;
-        if (state == "Z") return true;  // ended; whoever inherited it has not reaped it yet
+    while (!hasEnded(pid)) {
         if (steady_clock::now() > deadline) return false;
         std::this_thread::sleep_for(milliseconds(2));
     }

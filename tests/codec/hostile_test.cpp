@@ -114,6 +114,19 @@ TEST(HostileFiles, ImpossibleSizesCostNothing) {
     EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
+/// Half of the rows could be read. (In a worker also because OpenImageIO leaks the message.)
+TEST(HostileFiles, PixelsOfADamagedFileAreDiscarded) {
+    ImageFiles files(kLimits);
+    std::string file = codec::encode(".png", samples::bitmap(64, 64, 3, ComponentType::u8), {});
+    file.resize(file.size() / 2);
+    try {
+        files.decode(bytesOf(file), "half.png");
+        FAIL() << "half a picture was taken for a whole one";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::StartsWith("half.png: file is damaged: "));
+    }
+}
+
 /// A picture that is within all limits of size, but not within this worker's memory.
 TEST(HostileFiles, MemoryLimitIsNamed) {
 #if defined(__SANITIZE_ADDRESS__)
