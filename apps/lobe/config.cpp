@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "base/closest_name.hpp"
 #include "base/error.hpp"
 
 namespace lobe::app {
@@ -16,34 +17,49 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-bool matches(const json& match, const std::string& scene, const std::string& origin) {
-    if (match.is_string()) return matchesGlob(match.get<std::string>(), scene);
-    if (match.is_object() && match.size() == 1) {
-        const auto& [kind, value] = *match.items().begin();
-        if (value.is_string()) {
-            const std::string pattern = value.get<std::string>();
-            if (kind == "glob") return matchesGlob(pattern, scene);
-            if (kind == "exact") return pattern == scene;
-            try {
-                if (kind == "regex") return std::regex_search(scene, std::regex(pattern));
-            } catch (const std::regex_error&) {
-                throw UsageError(origin + ": match regex '" + pattern + "'; expected a regular expression");
-            }
-        }
+/// One way to match a path, with how it is spelt: {"glob": "*.glb"}.
+struct Matcher {
+    std::string kind, pattern;
+
+    bool operator()(const std::string& path) const {
+        if (kind == "exact") return path == pattern;
+        if (kind == "glob") return matchesGlob(pattern, path);
+        return std::regex_search(path, std::regex(pattern));
     }
-    throw UsageError(origin + ": match " + match.dump() + "; expected a pattern, or {\"glob\"|\"exact\"|\"regex\": \"...\"}");
+};
+
+Matcher matcherOf(const json& match, const std::string& where) {
+    Matcher matcher{"glob", {}};
+    if (match.is_string()) {
+        matcher.pattern = match.get<std::string>();
+    } else if (match.is_object() && match.size() == 1 && match.front().is_string()) {
+        matcher = {match.begin().key(), match.front().get<std::string>()};
+    }
+    const bool known = matcher.kind == "glob" || matcher.kind == "exact" || matcher.kind == "regex";
+    if (!known || matcher.pattern.empty())
+        throw UsageError(where + ".match: " + match.dump() +
+                         "; expected a pattern, or {\"glob\"|\"exact\"|\"regex\": \"...\"}");
+    try {
+        if (matcher.kind == "regex") std::regex{matcher.pattern};
+    } catch (const std::regex_error&) {
+        throw UsageError(where + ".match: regex '" + matcher.pattern + "'; expected a regular expression");
+    }
+    return matcher;
 }
 
-void addFolder(std::vector<Config>& configs, const fs::path& folder) {
-    std::error_code ignored;
-    if (fs::is_regular_file(folder / "config.json", ignored))
-        configs.emplace_back(readJsonFile(folder / "config.json"), (folder / "config.json").string());
-    std::vector<fs::path> parts;
-    for (const auto& entry : fs::directory_iterator(folder / "config.d", ignored))
-        if (entry.path().extension() == ".json") parts.push_back(entry.path());
-    std::sort(parts.begin(), parts.end());
-    for (const fs::path& part : parts)
-        configs.emplace_back(readJsonFile(part), part.string());
+std::string blockName(const std::string& origin, size_t index) {
+    return origin + ": [" + std::to_string(index) + "]";
+}
+
+void requireBlock(const json& block, const std::string& where) {
+    if (!block.is_object() || !block.contains("settings"))
+        throw UsageError(where + ": expected {\"match\": ..., \"settings\": {...}}");
+    for (const auto& [key, value] : block.items())
+        if (key != "match" && key != "settings")
+            throw UsageError(where + ": unknown key '" + key + "'; expected match or settings" +
+                             didYouMean(key, {"match", "settings"}));
+    if (block.contains("match")) matcherOf(block["match"], where);
+    Settings().setAll(block["settings"], where);
 }
 
 }  // namespace
@@ -54,7 +70,8 @@ bool matchesGlob(const std::string& pattern, const std::string& text) {
 
 json readJsonFile(const fs::path& file) {
     std::error_code failed;
-    if (fs::is_directory(file, failed)) throw InputError(file.string() + ": is a folder; expected a JSON file");
+    if (fs::is_directory(file, failed))
+        throw InputError(file.string() + ": is a folder; expected a JSON file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(file.string() + ": cannot be read; expected a JSON file");
     std::ostringstream text;
@@ -64,34 +81,70 @@ json readJsonFile(const fs::path& file) {
         return json::parse(content, nullptr, true, true);
     } catch (const json::parse_error& error) {
         const size_t upTo = std::min<size_t>(error.byte, content.size());
-        const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(upTo), '\n');
-        throw InputError(file.string() + ":" + std::to_string(line) + ": not JSON");
+        const std::string before = content.substr(0, upTo);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const size_t column = before.size() - (before.rfind('\n') + 1);
+        throw InputError(file.string() + ":" + std::to_string(line) + ":" + std::to_string(column) +
+                         ": not JSON");
+    } catch (const json::exception&) {  // a number that no double holds
+        throw InputError(file.string() + ": has a number out of range; expected JSON");
     }
 }
 
 Config::Config(json content, std::string origin) : content_(std::move(content)), origin_(std::move(origin)) {
-    if (!content_.is_object() && !content_.is_array())
-        throw UsageError(origin_ + ": " + content_.type_name() + "; expected an object of settings or a list of blocks");
+    if (content_.is_object()) {
+        Settings().setAll(content_, origin_);
+        return;
+    }
+    if (!content_.is_array())
+        throw UsageError(origin_ + ": " + content_.type_name() +
+                         "; expected an object of settings or a list of blocks");
+    for (size_t i = 0; i < content_.size(); ++i)
+        requireBlock(content_[i], blockName(origin_, i));
 }
 
-void Config::apply(const std::string& scene, Settings& settings) const {
+void Config::apply(const fs::path& scene, Settings& settings) const {
     if (content_.is_object()) return settings.setAll(content_, origin_);
-    for (const json& block : content_) {
-        if (!block.is_object() || !block.contains("settings"))
-            throw UsageError(origin_ + ": block " + block.dump() + "; expected {\"match\": ..., \"settings\": {...}}");
-        if (!block.contains("match") || matches(block["match"], scene, origin_)) settings.setAll(block["settings"], origin_);
+    std::error_code ignored;
+    const std::string given = scene.string();
+    const std::string absolute = fs::absolute(scene, ignored).lexically_normal().string();
+    for (size_t i = 0; i < content_.size(); ++i) {
+        const json& block = content_[i];
+        const std::string where = blockName(origin_, i);
+        if (block.contains("match")) {
+            const Matcher matches = matcherOf(block["match"], where);
+            if (!matches(given) && !matches(absolute)) continue;
+        }
+        settings.setAll(block["settings"], where);
     }
 }
 
-std::vector<Config> standardConfigs() {
+std::vector<Config> configsIn(const fs::path& folder) {
     std::vector<Config> configs;
-    addFolder(configs, "/etc/lobe");
+    std::error_code ignored;
+    if (fs::exists(folder / "config.json", ignored))
+        configs.emplace_back(readJsonFile(folder / "config.json"), (folder / "config.json").string());
+    std::vector<fs::path> parts;
+    for (const auto& entry : fs::directory_iterator(folder / "config.d", ignored))
+        if (entry.path().extension() == ".json") parts.push_back(entry.path());
+    std::sort(parts.begin(), parts.end());
+    for (const fs::path& part : parts)
+        configs.emplace_back(readJsonFile(part), part.string());
+    return configs;
+}
+
+std::vector<Config> standardConfigs() {
+    std::vector<Config> configs = configsIn("/etc/lobe");
     const char* xdg = std::getenv("XDG_CONFIG_HOME");
     const char* home = std::getenv("HOME");
-    if (xdg != nullptr && *xdg != '\0')
-        addFolder(configs, fs::path(xdg) / "lobe");
-    else if (home != nullptr)
-        addFolder(configs, fs::path(home) / ".config" / "lobe");
+    fs::path user;
+    if (xdg != nullptr && *xdg == '/')  // the XDG specification: a relative path is to be ignored
+        user = xdg;
+    else if (home != nullptr && *home != '\0')
+        user = fs::path(home) / ".config";
+    if (!user.empty())
+        for (Config& config : configsIn(user / "lobe"))
+            configs.push_back(std::move(config));
     return configs;
 }
 

@@ -16,16 +16,20 @@ nlohmann::json readJsonFile(const std::filesystem::path& file);
 /// A configuration: an object of settings, or a list of blocks {"match": ..., "settings": {...}}.
 class Config {
 public:
+    /// Refuses whatever is wrong in any block, whether it will match a scene or not. Throws UsageError.
     Config(nlohmann::json content, std::string origin);
-    /// Applies all settings, or those of the blocks that match the scene's path.
-    void apply(const std::string& scene, Settings& settings) const;
+    /// Applies all settings, or those of the blocks that match the scene's path, as given or absolute.
+    void apply(const std::filesystem::path& scene, Settings& settings) const;
 
 private:
     nlohmann::json content_;
     std::string origin_;
 };
 
-/// The files of the system and of the user that exist, in the order of precedence, weakest first.
+/// config.json and config.d/*.json of a folder, as far as they exist, in the order of precedence, weakest
+/// first.
+std::vector<Config> configsIn(const std::filesystem::path& folder);
+/// Those of the system, then those of the user.
 std::vector<Config> standardConfigs();
 
 /// Shell pattern: * any text, ? any letter.

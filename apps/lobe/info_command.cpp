@@ -28,6 +28,7 @@ nlohmann::ordered_json toJson(const gl::Candidate& candidate) {
     entry["clip_control"] = info.clipControl;
     entry["anisotropic_filter"] = info.anisotropicFilter;
     entry["debug_output"] = info.debugOutput;
+    entry["gpu_timers"] = info.reliableTimers;
     entry["limits"] = {{"texture_size", info.maxTextureSize},
                        {"array_layers", info.maxArrayLayers},
                        {"color_attachments", info.maxColorAttachments},
@@ -40,20 +41,24 @@ nlohmann::ordered_json toJson(const gl::Candidate& candidate) {
 }
 
 void print(const gl::Candidate& candidate) {
-    std::cout << gl::backendNames()[static_cast<size_t>(candidate.backend)] << ' ' << candidate.platform << '\n';
+    std::cout << gl::backendNames()[static_cast<size_t>(candidate.backend)] << ' ' << candidate.platform
+              << '\n';
     if (!candidate.info) {
         std::cout << "  not usable: " << candidate.failure << '\n';
         return;
     }
     const gl::ContextInfo& info = *candidate.info;
-    std::cout << "  renderer  " << info.renderer << " (" << info.vendor << ")" << (info.software ? ", software" : ", hardware") << '\n'
+    std::cout << "  renderer  " << info.renderer << " (" << info.vendor << ")"
+              << (info.software ? ", software" : ", hardware") << '\n'
               << "  version   OpenGL " << info.version << ", GLSL " << info.glslVersion << '\n'
               << "  offers    clip control " << (info.clipControl ? "yes" : "no") << ", anisotropic filter "
-              << (info.anisotropicFilter ? "yes" : "no") << ", debug output " << (info.debugOutput ? "yes" : "no")
-              << ", GPU timers " << (info.reliableTimers ? "yes" : "no") << '\n'
-              << "  limits    texture " << info.maxTextureSize << ", layers " << info.maxArrayLayers << ", colour targets "
-              << info.maxColorAttachments << ", texture buffer " << info.maxTextureBufferTexels << " texels, uniform block "
-              << info.maxUniformBlockSize << " B, samples " << info.maxSamples << '\n';
+              << (info.anisotropicFilter ? "yes" : "no") << ", debug output "
+              << (info.debugOutput ? "yes" : "no") << ", GPU timers " << (info.reliableTimers ? "yes" : "no")
+              << '\n'
+              << "  limits    texture " << info.maxTextureSize << ", layers " << info.maxArrayLayers
+              << ", colour targets " << info.maxColorAttachments << ", texture buffer "
+              << info.maxTextureBufferTexels << " texels, uniform block " << info.maxUniformBlockSize
+              << " B, samples " << info.maxSamples << '\n';
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ int infoCommand(const std::vector<std::string>& list) {
         else
             print(candidate);
     }
-    if (json) std::cout << all.dump(2) << '\n';
+    if (json) std::cout << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     if (!usable) throw ContextError("no OpenGL 3.3 context can be made here");
     return 0;
 }

@@ -1,7 +1,11 @@
 // lobe: the batch tool. Errors are one line on standard error and a documented exit code.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/Version.hpp>
 #include <cstdio>
 #include <exception>
+#include <glm/detail/setup.hpp>
 #include <iostream>
 #include <map>
 #include <new>
@@ -21,7 +25,7 @@ constexpr const char* kUsage =
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
     "  info                                 OpenGL contexts that can be made here\n"
-    "  help                                 every setting\n"
+    "  help [COMMAND]                       every setting, or a command's options\n"
     "  --version                            versions\n"
     "lobe COMMAND --help lists a command's options.\n";
 
@@ -33,8 +37,16 @@ void printVersion() {
 #else
         ", debug"
 #endif
-              << "; CLI11 " << CLI11_VERSION << ", nlohmann-json " << NLOHMANN_JSON_VERSION_MAJOR << '.' << NLOHMANN_JSON_VERSION_MINOR
-              << '.' << NLOHMANN_JSON_VERSION_PATCH << "\nMIT licence\n";
+              << "; CLI11 " << CLI11_VERSION << ", nlohmann-json " << NLOHMANN_JSON_VERSION_MAJOR << '.'
+              << NLOHMANN_JSON_VERSION_MINOR << '.' << NLOHMANN_JSON_VERSION_PATCH << ", GLM "
+              << GLM_VERSION_MAJOR << '.' << GLM_VERSION_MINOR << '.' << GLM_VERSION_PATCH << "."
+              << GLM_VERSION_REVISION << "\n";
+}
+
+/// A standard stream that is closed would be the next file that is opened, and get what is meant for people.
+void openStandardStreams() {
+    for (int stream = 0; stream <= STDERR_FILENO; ++stream)
+        if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -62,7 +74,10 @@ int run(const std::vector<std::string>& arguments) {
             names.push_back(name);
         throw lobe::UsageError("unknown command '" + first + "'" + lobe::didYouMean(first, names));
     }
-    return command->second({arguments.begin() + 1, arguments.end()});
+    std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+    if (first == "help" && rest.size() == 1 && commands.contains(rest[0]))
+        return commands.at(rest[0])({"--help"});
+    return command->second(rest);
 }
 
 int fail(const std::string& message, lobe::ExitCode code) {
@@ -73,15 +88,19 @@ int fail(const std::string& message, lobe::ExitCode code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    openStandardStreams();
     try {
         const int code = run({argv + 1, argv + argc});
         std::cout.flush();
-        return std::cout.good() ? code : fail("standard output: cannot be written", lobe::ExitCode::unwritableOutput);
+        return std::cout.good() ? code
+                                : fail("standard output: can't be written", lobe::ExitCode::unwritableOutput);
     } catch (const lobe::Error& error) {
         return fail(error.what(), error.exitCode());
     } catch (const std::bad_alloc&) {
         return fail("out of memory", lobe::ExitCode::unreadableInput);
     } catch (const std::exception& error) {
         return fail(std::string("unexpected: ") + error.what(), lobe::ExitCode::checkFailed);
+    } catch (...) {
+        return fail("unexpected, and without a description", lobe::ExitCode::checkFailed);
     }
 }

@@ -24,8 +24,11 @@ std::string toJson(const Outcome& outcome, const std::string& backend, const std
     }
     line["camera"] = outcome.camera;
     line["frame"] = outcome.shot.frame;
-    line["resolution"] = outcome.shot.settings.get("resolution");
-    line["milliseconds"] = {{"load", outcome.loadMs}, {"upload", outcome.uploadMs}, {"render", outcome.renderMs}, {"encode", outcome.encodeMs}};
+    line["resolution"] = outcome.shot.settings->get("resolution");
+    line["milliseconds"] = {{"load", outcome.loadMs},
+                            {"upload", outcome.uploadMs},
+                            {"render", outcome.renderMs},
+                            {"encode", outcome.encodeMs}};
     line["pass_milliseconds"] = nlohmann::ordered_json::object();
     for (const PassTime& pass : outcome.passes)
         line["pass_milliseconds"][pass.pass] = pass.milliseconds;
@@ -34,7 +37,7 @@ std::string toJson(const Outcome& outcome, const std::string& backend, const std
     line["backend"] = backend;
     line["renderer"] = renderer;
     line["warnings"] = outcome.warnings;
-    return line.dump();
+    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // paths need not be UTF-8
 }
 
 }  // namespace lobe::app

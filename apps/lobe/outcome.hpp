@@ -14,9 +14,9 @@ namespace lobe::app {
 
 struct Outcome {
     Shot shot;
-    bool skipped = false;       ///< --resume: was there already
+    bool skipped = false;  ///< --resume: was there already
     std::optional<ExitCode> error;
-    std::string message;        ///< of the error
+    std::string message;  ///< of the error
     std::string camera;
     double loadMs = 0.0, uploadMs = 0.0, renderMs = 0.0, encodeMs = 0.0;
     std::vector<PassTime> passes;

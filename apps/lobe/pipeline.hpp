@@ -1,8 +1,9 @@
-/// Renders a list of shots: scenes are loaded ahead on one thread, pictures encoded behind on another, and OpenGL stays
-/// on the caller's.
+/// Renders a list of shots: scenes are loaded ahead on one thread, pictures encoded behind on others, and
+/// OpenGL stays on the caller's.
 #pragma once
 
 #include <atomic>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "gl/context.hpp"
@@ -14,12 +15,14 @@ namespace lobe::app {
 
 struct PipelineOptions {
     gl::ContextRequest context;
-    bool resume = false;     ///< leave out pictures that are there and were made the same way
+    bool resume = false;  ///< leave out pictures that are there and were made the same way
     bool timePasses = false;
+    nlohmann::json reproduced;  ///< record that the picture should have again; null: none
 };
 
-/// Every shot ends in one outcome, in order, to `reporter`. Throws ContextError if no context can be made; errors of
-/// single shots are outcomes. Stops after the present shot once `interrupted` is set.
+/// Every shot ends in one outcome, in order, to `reporter`. Errors of single shots are outcomes; what
+/// concerns all is thrown: ContextError if no context can be made, InputError without the helper programs,
+/// OutputError if the reporter cannot report. Stops after the present shot once `interrupted` is set.
 void runShots(const std::vector<Shot>& shots, const PipelineOptions& options, Reporter& reporter,
               const std::atomic<bool>& interrupted);
 

@@ -1,14 +1,18 @@
 // lobe render: scenes in, pictures out.
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 
 #include "arguments.hpp"
 #include "base/error.hpp"
+#include "batch.hpp"
 #include "commands.hpp"
 #include "image/image_files.hpp"
+#include "output_name.hpp"
 #include "pipeline.hpp"
 #include "record.hpp"
+#include "shot_scene.hpp"
 
 namespace lobe::app {
 namespace {
@@ -28,40 +32,94 @@ struct RenderArguments {
 };
 
 void addOptions(CLI::App& app, RenderArguments& r) {
-    app.add_option("scenes", r.inputs, "glTF scenes (.gltf, .glb), or folders of them")->type_name("SCENE...");
-    app.add_option("--batch", r.batch, "many shots of many scenes, from a JSON file (docs/batch.md)")->type_name("FILE");
+    app.add_option("scenes", r.inputs, "glTF scenes (.gltf, .glb), or folders of them")
+        ->type_name("SCENE...");
+    app.add_option("--batch", r.batch, "many shots of many scenes, from a JSON file (docs/batch.md)")
+        ->type_name("FILE");
     app.add_option("--shard", r.shardText, "only every Nth shot, from the Ith")->type_name("I/N");
     app.add_option("--filter", r.filter, "only shots whose output or scene matches")->type_name("GLOB");
-    app.add_option("--reproduce", r.reproduce, "render a picture again from what is written in it")->type_name("PICTURE");
-    app.add_flag("--resume", r.resume, "leave out pictures that are there and were made the same way");
-    app.add_flag("--list", r.list, "print the shots and render nothing");
-    app.add_flag("--json", r.json, "one JSON object a shot on standard output");
-    app.add_flag("-q,--quiet", r.quiet, "only errors");
-    app.add_flag("-v,--verbose", r.verbose, "where each setting comes from, and times of passes");
-    app.add_flag("--headless", r.headless, "accepted for habit's sake: rendering never needs a display");
+    app.add_option("--reproduce", r.reproduce,
+                   "render a picture again from what is written in it; a SCENE given beside it takes the "
+                   "place of its own")
+        ->type_name("PICTURE");
+    const auto addFlag = [&](const std::string& names, bool& value, const std::string& help) {
+        const std::string name = names.substr(names.rfind("--") + 2);
+        app.add_flag(names + ",!--no-" + name, value, help);
+    };
+    addFlag("--resume", r.resume, "leave out pictures that are there and were made the same way");
+    addFlag("--list", r.list, "print the shots and render nothing");
+    addFlag("--json", r.json, "one JSON object a shot on standard output");
+    addFlag("-q,--quiet", r.quiet, "only errors");
+    addFlag("-v,--verbose", r.verbose, "where each setting comes from, and times of passes");
+    addFlag("--headless", r.headless, "accepted for habit's sake: rendering never needs a display");
 }
 
-std::vector<Shot> collect(const RenderArguments& r, const SettingSources& sources) {
-    const int kinds = !r.inputs.empty() + !r.batch.empty() + !r.reproduce.empty();
-    if (kinds != 1) throw UsageError(kinds == 0 ? "nothing to render; expected scenes, --batch or --reproduce"
-                                                : "scenes, --batch and --reproduce exclude each other");
-    if (!r.batch.empty()) return shotsOfBatch(r.batch, sources);
-    if (r.reproduce.empty()) return shotsOf(sceneFiles(r.inputs), sources);
+/// What is to be made, and the record that it should have, if any.
+struct Request {
+    std::vector<Shot> shots;
+    nlohmann::json reproduced;
+};
+
+Request requestOf(const RenderArguments& r, const SettingSources& sources) {
+    if (!r.batch.empty() && !(r.inputs.empty() && r.reproduce.empty()))
+        throw UsageError("--batch, and scenes or --reproduce, exclude each other");
+    if (!r.batch.empty()) return {shotsOfBatch(r.batch, sources), {}};
+    if (r.reproduce.empty()) {
+        if (r.inputs.empty()) throw UsageError("nothing to render; expected scenes, --batch or --reproduce");
+        return {shotsOf(sceneFiles(r.inputs), sources), {}};
+    }
     ImageFiles files;
-    return {shotOf(recordIn(files.readMetadata(r.reproduce), r.reproduce), r.reproduce, sources)};
+    Request request;
+    request.reproduced = recordIn(files.readMetadata(r.reproduce), r.reproduce);
+    Shot shot = shotOf(request.reproduced, r.reproduce, sources);
+    if (shot.settings->get("output").is_null())
+        throw UsageError("--reproduce without --output; expected a name for the new picture");
+    if (!r.inputs.empty()) {
+        const std::vector<std::filesystem::path> scenes = sceneFiles(r.inputs);
+        if (scenes.size() != 1)
+            throw UsageError(std::to_string(scenes.size()) +
+                             " scenes beside --reproduce; expected at most one");
+        shot.scene = scenes[0];
+    }
+    request.shots = {shot};
+    return request;
 }
 
 /// The context is one for all shots.
 gl::ContextRequest contextOf(const std::vector<Shot>& shots) {
-    gl::ContextRequest request;
-    const auto backend = shots.front().settings.get("backend");
-    const auto device = shots.front().settings.get("device");
+    const auto backend = shots.front().settings->get("backend");
+    const auto device = shots.front().settings->get("device");
     for (const Shot& shot : shots)
-        if (shot.settings.get("backend") != backend || shot.settings.get("device") != device)
+        if (shot.settings->get("backend") != backend || shot.settings->get("device") != device)
             throw UsageError("backend and device differ between shots; expected one for all");
+    gl::ContextRequest request;
     request.backend = gl::parseBackend(backend.get<std::string>());
     request.device = device.get<int>();
     return request;
+}
+
+/// Calls once for each run of shots with the same settings.
+template<class Action>
+void forEachSettings(const std::vector<Shot>& shots, Action action) {
+    const Settings* last = nullptr;
+    for (const Shot& shot : shots) {
+        if (shot.settings.get() == last) continue;
+        last = shot.settings.get();
+        action(shot);
+    }
+}
+
+void printList(const std::vector<Shot>& shots, bool asJson) {
+    for (const Shot& shot : shots) {
+        if (!asJson) {
+            std::cout << shot.output << '\t' << shot.scene.string() << '\n';
+            continue;
+        }
+        const nlohmann::ordered_json line = {
+            {"schema", 1},           {"output", shot.output}, {"scene", shot.scene.string()},
+            {"number", shot.number}, {"frame", shot.frame},   {"settings", shot.settings->toJson()}};
+        std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    }
 }
 
 }  // namespace
@@ -73,28 +131,37 @@ int renderCommand(const std::vector<std::string>& list) {
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;
 
-    std::vector<Shot> shots = collect(r, arguments.sources());
+    auto [shots, reproduced] = requestOf(r, arguments.sources());
+    forEachSettings(shots, [](const Shot& shot) { requireOneCamera(*shot.settings); });
     nameOutputs(shots);
-    if (!r.filter.empty())
-        std::erase_if(shots, [&](const Shot& shot) { return !matchesGlob(r.filter, shot.output) && !matchesGlob(r.filter, shot.scene.string()); });
+    if (!r.filter.empty()) {
+        std::erase_if(shots, [&](const Shot& shot) {
+            return !matchesGlob(r.filter, shot.output) && !matchesGlob(r.filter, shot.scene.string());
+        });
+        if (shots.empty()) throw UsageError("no shot matches --filter '" + r.filter + "'");
+    }
     if (!r.shardText.empty()) shots = shard(shots, r.shardText);
     if (r.list) {
-        for (const Shot& shot : shots)
-            std::cout << shot.output << '\t' << shot.scene.string() << '\n';
+        printList(shots, r.json);
         return 0;
     }
-    if (shots.empty()) {
-        if (!r.shardText.empty()) return 0;  // more shards than shots
-        throw UsageError("no shot matches --filter '" + r.filter + "'");
-    }
-    if (r.json && shots.front().output == "-") throw UsageError("--json and output '-' both want standard output; expected one");
-    if (r.verbose) std::cerr << shots.front().settings.chain();
+    if (shots.empty()) return 0;  // more shards than shots
+    if (r.json && shots.front().output == "-")
+        throw UsageError("--json and output '-' both want standard output; expected one");
+    if (r.verbose)
+        forEachSettings(shots, [](const Shot& shot) {
+            std::cerr << "settings of " << shot.output << ":\n" << shot.settings->chain();
+        });
 
     PipelineOptions options;
     options.context = contextOf(shots);
     options.resume = r.resume;
     options.timePasses = r.json || r.verbose;
-    Reporter reporter(shots.size(), r.json, r.quiet ? Verbosity::quiet : r.verbose ? Verbosity::verbose : Verbosity::normal);
+    options.reproduced = reproduced;
+    Reporter reporter(shots.size(), r.json,
+                      r.quiet     ? Verbosity::quiet
+                      : r.verbose ? Verbosity::verbose
+                                  : Verbosity::normal);
     std::signal(SIGINT, interrupt);
     std::signal(SIGTERM, interrupt);
     std::signal(SIGPIPE, SIG_IGN);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
@@ -7,6 +9,15 @@
 #include "shading/brdf.hpp"
 
 namespace lobe::app {
+namespace {
+
+/// As few digits as give the number back.
+std::string shortest(double value) {
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+}  // namespace
 
 std::string Setting::flag() const {
     std::string name = "--" + key;
@@ -16,14 +27,21 @@ std::string Setting::flag() const {
 
 std::string Setting::valueName() const {
     switch (type) {
-        case SettingType::text: return "NAME";
+        case SettingType::text:
+            return "NAME";
         case SettingType::integer:
-        case SettingType::real: return "N";
-        case SettingType::vector: return "X,Y,Z";
-        case SettingType::colour: return "R,G,B";
-        case SettingType::resolution: return "W,H";
-        case SettingType::list: return "NAME,...";
-        case SettingType::choice: break;
+        case SettingType::real:
+            return "N";
+        case SettingType::vector:
+            return "X,Y,Z";
+        case SettingType::colour:
+            return "R,G,B";
+        case SettingType::resolution:
+            return "W,H";
+        case SettingType::list:
+            return "NAME,...";
+        case SettingType::choice:
+            break;
     }
     std::string names;
     for (const std::string& choice : choices)
@@ -31,41 +49,148 @@ std::string Setting::valueName() const {
     return names;
 }
 
+std::string Setting::allowed() const {
+    if (type == SettingType::integer || type == SettingType::real)
+        return shortest(minimum) + " to " + shortest(maximum) + (unit.empty() ? "" : " " + unit);
+    if (type != SettingType::list) return valueName() + (unit.empty() ? "" : " " + unit);
+    std::string names;
+    for (const std::string& choice : choices)
+        names += (names.empty() ? "" : ",") + choice;
+    return names;
+}
+
+std::string Setting::defaultText() const {
+    if (defaultValue.is_null()) return {};
+    if (defaultValue.is_number()) return shortest(defaultValue.get<double>());
+    std::string text = defaultValue.is_string() ? defaultValue.get<std::string>() : defaultValue.dump();
+    std::erase_if(text, [](char c) { return c == '[' || c == ']' || c == '"'; });
+    return text;
+}
+
 const std::vector<Setting>& settingTable() {
     using enum SettingType;
     static const std::vector<Setting> table = {
         {"output", text, nullptr,
-         "file to write; {model} {camera} {n:3} {frame:4} {date} {brdf} {quality} and ### are filled in; - is standard output (PNG). "
+         "file to write; {model} {camera} {n:3} {frame:4} {date} {brdf} {quality} and ### are filled in; - "
+         "is standard output (PNG). "
          "Default out/{model}.png, with frames out/{model}_{frame:4}.png",
          "Output"},
-        {"resolution", resolution, {1280, 720}, "picture size in pixels; also 1280x720, and -r W H", "Output"},
+        {"resolution",
+         resolution,
+         {1280, 720},
+         "picture size; also 1280x720, and -r W H",
+         "Output",
+         {},
+         0.0,
+         0.0,
+         "pixels"},
         {"aov", list, {"radiance"}, "quantities to write as layers of one EXR file", "Output", aovNames()},
         {"exr_precision", choice, "half", "bits of EXR channels", "Output", {"half", "float"}},
         {"jpeg_quality", integer, 92, "quality of JPEG files", "Output", {}, 1, 100},
 
-        {"camera", text, nullptr, "camera of the scene, by name or index; default the first, or one that frames the scene", "Camera"},
-        {"camera_position", vector, nullptr, "eye in world space, m", "Camera"},
-        {"camera_focal_point", vector, nullptr, "what camera_position looks at; default the centre of the scene", "Camera"},
-        {"camera_view_angle", real, nullptr, "vertical field of view, degrees", "Camera", {}, 0.01, 179.0},
-        {"camera_azimuth", real, nullptr, "frame the scene from this side, degrees from the front to the right", "Camera", {}, -360.0, 360.0},
-        {"camera_elevation", real, nullptr, "frame the scene from this height, degrees above the horizon", "Camera", {}, -90.0, 90.0},
+        {"camera", text, nullptr,
+         "camera of the scene, by name or index; default the first, or one that frames the scene", "Camera"},
+        {"camera_position", vector, nullptr, "eye in world space", "Camera", {}, 0.0, 0.0, "m"},
+        {"camera_focal_point",
+         vector,
+         nullptr,
+         "what camera_position looks at; default the centre of the scene",
+         "Camera",
+         {},
+         0.0,
+         0.0,
+         "m"},
+        {"camera_view_angle",
+         real,
+         nullptr,
+         "vertical field of view; default the camera's own, or 45",
+         "Camera",
+         {},
+         0.01,
+         179.0,
+         "degrees"},
+        {"camera_azimuth",
+         real,
+         nullptr,
+         "frame the scene from this side, from the front (0) to the right",
+         "Camera",
+         {},
+         -360.0,
+         360.0,
+         "degrees"},
+        {"camera_elevation",
+         real,
+         nullptr,
+         "frame the scene from this height above the horizon",
+         "Camera",
+         {},
+         -90.0,
+         90.0,
+         "degrees"},
         {"frames", integer, 1, "number of pictures of a turntable", "Camera", {}, 1, 1000000},
-        {"orbit", real, 0.0, "degrees that the camera turns over all frames", "Camera", {}, -36000.0, 36000.0},
+        {"orbit",
+         real,
+         0.0,
+         "angle that the camera turns over all frames; 360 closes the circle",
+         "Camera",
+         {},
+         -36000.0,
+         36000.0,
+         "degrees"},
 
-        {"time", real, 0.0, "pose animations at this time, s", "Scene", {}, 0.0, 1e6},
-        {"normals", choice, "file", "missing normals: flat as glTF says, or averaged (smooth); flat: always flat", "Scene", {"file", "smooth", "flat"}},
-        {"brdf", choice, nullptr, "shading model for all materials; default each material's own", "Scene", brdfNames()},
+        {"time", real, 0.0, "pose animations at this time", "Scene", {}, 0.0, 1e6, "s"},
+        {"normals",
+         choice,
+         "file",
+         "missing normals: flat as glTF says, or averaged (smooth); flat: always flat",
+         "Scene",
+         {"file", "smooth", "flat"}},
+        {"brdf", choice, nullptr, "shading model for all materials; default each material's own", "Scene",
+         brdfNames()},
 
-        {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it", "Quality", qualityPresetNames()},
+        {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",
+         "Quality", qualityPresetNames()},
         {"anti_aliasing", choice, nullptr, "samples a pixel", "Quality", {"none", "ssaa4", "ssaa16"}},
-        {"gbuffer_bits", choice, nullptr, "bits of each parameter that varies from pixel to pixel", "Quality", {"8", "16", "32"}},
-        {"texture_bits", choice, nullptr, "bits of each texel component that is filtered", "Quality", {"8", "16", "32"}},
-        {"shading", choice, nullptr, "deferred, or all surfaces in the forward pass", "Quality", {"deferred", "forward"}},
-        {"cluster_from", integer, nullptr, "light lists by cluster from this many ranged lights of a type on; 0 never", "Quality", {}, 0, 1e6},
+        {"gbuffer_bits",
+         choice,
+         nullptr,
+         "bits of each parameter that varies from pixel to pixel",
+         "Quality",
+         {"8", "16", "32"}},
+        {"texture_bits",
+         choice,
+         nullptr,
+         "bits of each texel component that is filtered",
+         "Quality",
+         {"8", "16", "32"}},
+        {"shading",
+         choice,
+         nullptr,
+         "deferred, or all surfaces in the forward pass",
+         "Quality",
+         {"deferred", "forward"}},
+        {"cluster_from",
+         integer,
+         nullptr,
+         "light lists by cluster from this many ranged lights of a type on; 0 never",
+         "Quality",
+         {},
+         0,
+         1e6},
 
-        {"exposure", real, 0.0, "stops (EV) that radiance is multiplied by before the tone curve", "Display", {}, -40.0, 40.0},
+        {"exposure",
+         real,
+         0.0,
+         "EV: radiance is multiplied by 2 to this power before the tone curve",
+         "Display",
+         {},
+         -40.0,
+         40.0,
+         "stops"},
         {"tone_mapping", choice, "none", "tone curve of PNG and JPEG", "Display", toneMappingNames()},
-        {"background", colour, "0,0,0", "sRGB as R,G,B in 0..1 or #rrggbb, or transparent (PNG)", "Display"},
+        {"background", colour, "0,0,0",
+         "sRGB as R,G,B from 0 to 1 or #rrggbb, or transparent (PNG); EXR and HDR keep radiance on black",
+         "Display"},
 
         {"backend", choice, "auto", "how the OpenGL context is made", "Device", gl::backendNames()},
         {"device", integer, -1, "EGL device, as lobe info numbers them; -1 any", "Device", {}, -1, 255},

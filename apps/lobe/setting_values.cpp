@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
@@ -12,7 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-[[noreturn]] void refuse(const Setting& setting, const json& given, const std::string& where, const std::string& expected) {
+[[noreturn]] void refuse(const Setting& setting, const json& given, const std::string& where,
+                         const std::string& expected) {
     const std::string value = given.is_string() ? given.get<std::string>() : given.dump();
     throw UsageError(where + ": " + setting.key + " '" + value + "'; expected " + expected);
 }
@@ -29,29 +31,22 @@ std::vector<std::string> split(const std::string& text, const char* separators) 
 
 std::optional<double> number(const std::string& text) {
     double value = 0.0;
+    const bool plus = text.starts_with("+") && !text.starts_with("+-");
     const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const auto [stop, error] = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value)) return {};
     return value;
 }
 
-std::string rangeText(const Setting& setting) {
-    const auto shortest = [](double value) {
-        std::string text = std::to_string(value);
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.back() == '.') text.pop_back();
-        return text;
-    };
-    return shortest(setting.minimum) + " to " + shortest(setting.maximum);
-}
-
 json parseNumber(const Setting& setting, const json& given, const std::string& where) {
     const bool whole = setting.type == SettingType::integer;
-    const std::string expected = std::string(whole ? "a whole number" : "a number") + " from " + rangeText(setting);
+    const std::string expected =
+        std::string(whole ? "a whole number" : "a number") + " from " + setting.allowed();
     std::optional<double> value;
     if (given.is_number()) value = given.get<double>();
     if (given.is_string()) value = number(given.get<std::string>());
-    if (!value || *value < setting.minimum || *value > setting.maximum || (whole && *value != std::floor(*value)))
+    if (!value || *value < setting.minimum || *value > setting.maximum ||
+        (whole && *value != std::floor(*value)))
         refuse(setting, given, where, expected);
     return whole ? json(static_cast<int64_t>(*value)) : json(*value);
 }
@@ -60,8 +55,10 @@ std::vector<double> numbers(const Setting& setting, const json& given, const std
                             const char* separators, const std::string& expected) {
     std::vector<double> values;
     if (given.is_array()) {
-        for (const json& item : given)
-            if (item.is_number()) values.push_back(item.get<double>());
+        for (const json& item : given) {
+            if (!item.is_number()) refuse(setting, given, where, expected);
+            values.push_back(item.get<double>());
+        }
     } else if (given.is_string()) {
         for (const std::string& part : split(given.get<std::string>(), separators)) {
             const auto value = number(part);
@@ -105,7 +102,8 @@ std::string listText(const std::vector<std::string>& names) {
     return text;
 }
 
-void requireChoice(const Setting& setting, const std::string& value, const json& given, const std::string& where) {
+void requireChoice(const Setting& setting, const std::string& value, const json& given,
+                   const std::string& where) {
     if (std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end()) return;
     refuse(setting, given, where, "one of " + listText(setting.choices) + didYouMean(value, setting.choices));
 }
@@ -117,31 +115,41 @@ json parseSetting(const Setting& setting, const json& given, const std::string& 
     switch (setting.type) {
         case SettingType::text:
             if (given.is_number_integer()) return std::to_string(given.get<int64_t>());  // a camera's index
-            if (!given.is_string() || given.get<std::string>().empty()) refuse(setting, given, where, "a name");
+            if (!given.is_string() || given.get<std::string>().empty())
+                refuse(setting, given, where, "a name");
             return given;
         case SettingType::integer:
-        case SettingType::real: return parseNumber(setting, given, where);
+        case SettingType::real:
+            return parseNumber(setting, given, where);
         case SettingType::choice: {
             const std::string value = given.is_string() ? given.get<std::string>() : given.dump();
             requireChoice(setting, value, given, where);
             return value;
         }
-        case SettingType::vector: return numbers(setting, given, where, 3, ",", "three numbers, as 1,2.5,-3");
-        case SettingType::colour: return parseColour(setting, given, where);
-        case SettingType::resolution: return parseResolution(setting, given, where);
-        case SettingType::list: break;
+        case SettingType::vector:
+            return numbers(setting, given, where, 3, ",", "three numbers, as 1,2.5,-3");
+        case SettingType::colour:
+            return parseColour(setting, given, where);
+        case SettingType::resolution:
+            return parseResolution(setting, given, where);
+        case SettingType::list:
+            break;
     }
-    json result = json::array();
+    std::set<std::string> names;
     if (given.is_array()) {
         for (const json& item : given)
-            result.push_back(item.is_string() ? item.get<std::string>() : item.dump());
+            names.insert(item.is_string() ? item.get<std::string>() : item.dump());
     } else if (given.is_string()) {
         for (const std::string& part : split(given.get<std::string>(), ","))
-            result.push_back(part);
+            names.insert(part);
     }
-    if (result.empty()) refuse(setting, given, where, "names from " + listText(setting.choices));
-    for (const json& item : result)
-        requireChoice(setting, item.get<std::string>(), given, where);
+    if (names.empty()) refuse(setting, given, where, "names from " + listText(setting.choices));
+    for (const std::string& name : names)
+        requireChoice(setting, name, given, where);
+    // In the table's order, each once: a list is a set.
+    json result = json::array();
+    for (const std::string& choice : setting.choices)
+        if (names.contains(choice)) result.push_back(choice);
     return result;
 }
 

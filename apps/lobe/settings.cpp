@@ -1,6 +1,7 @@
 #include "settings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.hpp"
 #include "image/tone.hpp"
@@ -9,51 +10,89 @@ namespace lobe::app {
 
 using nlohmann::json;
 
+namespace {
+
+json builtIn(const Setting& setting) {
+    return setting.defaultValue.is_null() ? json() : parseSetting(setting, setting.defaultValue, "built-in");
+}
+
+/// Names of files may have bytes that are no UTF-8.
+std::string printed(const json& value) {
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {"ssaa16", 16}};
+
+}  // namespace
+
 Settings::Settings() {
     for (const Setting& setting : settingTable())
-        values_[setting.key].value = setting.defaultValue.is_null() ? json() : parseSetting(setting, setting.defaultValue, "built-in");
+        values_[setting.key].winner = {builtIn(setting), "built-in", false};
+}
+
+void Settings::put(const std::string& key, Layer layer) {
+    Value& slot = values_.at(key);
+    if (slot.winner.forced && !layer.forced) {
+        slot.others.push_back(std::move(layer));
+        return;
+    }
+    slot.others.push_back(std::exchange(slot.winner, std::move(layer)));
 }
 
 void Settings::set(const std::string& givenKey, const json& givenValue, const std::string& origin) {
     bool forced = givenKey.starts_with("!");
     const Setting& setting = requireSetting(forced ? givenKey.substr(1) : givenKey, origin);
     json value = givenValue;
-    if (value.is_string() && value.get<std::string>().starts_with("!")) {
+    if (value.is_string() && value.get_ref<const std::string&>().starts_with("!")) {
         forced = true;
-        value = value.get<std::string>().substr(1);
+        value = value.get_ref<const std::string&>().substr(1);
     }
-    json canonical = parseSetting(setting, value, origin);
-    Value& slot = values_[setting.key];
-    if (slot.forced && !forced) return;
-    slot = {std::move(canonical), origin, forced};
+    put(setting.key, {parseSetting(setting, value, origin), origin, forced});
 }
 
 void Settings::setAll(const json& object, const std::string& origin) {
-    if (!object.is_object()) throw UsageError(origin + ": " + std::string(object.type_name()) + "; expected an object of settings");
+    if (!object.is_object())
+        throw UsageError(origin + ": " + std::string(object.type_name()) +
+                         "; expected an object of settings");
     for (const auto& [key, value] : object.items())
         set(key, value, origin);
 }
 
 void Settings::reset(const std::string& key, const std::string& origin) {
     const Setting& setting = requireSetting(key, origin);
-    values_[setting.key] = {setting.defaultValue.is_null() ? json() : parseSetting(setting, setting.defaultValue, origin), origin, false};
+    values_.at(setting.key).winner.forced = false;
+    put(setting.key, {builtIn(setting), "reset by " + origin, false});
 }
 
-const json& Settings::get(const std::string& key) const { return values_.at(key).value; }
+const json& Settings::get(const std::string& key) const {
+    return values_.at(key).winner.value;
+}
 
 json Settings::toJson() const {
     json result = json::object();
     for (const auto& [key, value] : values_)
-        if (!value.value.is_null()) result[key] = value.value;
+        if (!value.winner.value.is_null()) result[key] = value.winner.value;
     return result;
 }
 
 std::string Settings::chain() const {
+    const json knobs = knobsOf(qualityOf(*this));
     std::string text;
     for (const Setting& setting : settingTable()) {
-        const Value& value = values_.at(setting.key);
-        if (value.value.is_null()) continue;
-        text += setting.key + " = " + value.value.dump() + " (" + value.origin + (value.forced ? ", must win" : "") + ")\n";
+        const Value& slot = values_.at(setting.key);
+        const bool byPreset = slot.winner.value.is_null() && knobs.contains(setting.key);
+        if (slot.winner.value.is_null() && slot.others.empty() && !byPreset) continue;
+        text += setting.key + " = ";
+        text += byPreset ? printed(knobs[setting.key]) + " (quality)"
+                         : printed(slot.winner.value) + " (" + slot.winner.origin + ")";
+        if (slot.winner.forced) text += " must win";
+        const char* link = " over ";
+        for (auto other = slot.others.rbegin(); other != slot.others.rend(); ++other) {
+            if (other->value.is_null()) continue;
+            text += link + printed(other->value) + " (" + other->origin + ")";
+            link = ", ";
+        }
+        text += '\n';
     }
     return text;
 }
@@ -64,19 +103,34 @@ Quality qualityOf(const Settings& settings) {
         const json& value = settings.get(key);
         return value.is_null() ? std::string() : value.get<std::string>();
     };
-    if (const std::string value = text("anti_aliasing"); !value.empty())
-        quality.samples = value == "ssaa4" ? 4 : value == "ssaa16" ? 16 : 1;
-    if (const std::string value = text("gbuffer_bits"); !value.empty()) quality.gbufferBits = std::stoi(value);
-    if (const std::string value = text("texture_bits"); !value.empty()) quality.textureBits = std::stoi(value);
+    for (const auto& [name, samples] : kSamples)
+        if (text("anti_aliasing") == name) quality.samples = samples;
+    if (const std::string value = text("gbuffer_bits"); !value.empty())
+        quality.gbufferBits = std::stoi(value);
+    if (const std::string value = text("texture_bits"); !value.empty())
+        quality.textureBits = std::stoi(value);
     if (const std::string value = text("shading"); !value.empty())
         quality.shading = value == "forward" ? Shading::forward : Shading::deferred;
-    if (const json& value = settings.get("cluster_from"); !value.is_null()) quality.clusterFrom = value.get<int>();
+    if (const json& value = settings.get("cluster_from"); !value.is_null())
+        quality.clusterFrom = value.get<int>();
     return quality;
+}
+
+json knobsOf(const Quality& quality) {
+    json knobs = {{"gbuffer_bits", std::to_string(quality.gbufferBits)},
+                  {"texture_bits", std::to_string(quality.textureBits)},
+                  {"shading", quality.shading == Shading::forward ? "forward" : "deferred"},
+                  {"cluster_from", quality.clusterFrom}};
+    for (const auto& [name, samples] : kSamples)
+        if (quality.samples == samples) knobs["anti_aliasing"] = name;
+    return knobs;
 }
 
 NormalsMode normalsOf(const Settings& settings) {
     const std::string value = settings.get("normals").get<std::string>();
-    return value == "smooth" ? NormalsMode::smooth : value == "flat" ? NormalsMode::flat : NormalsMode::asFile;
+    return value == "smooth" ? NormalsMode::smooth
+           : value == "flat" ? NormalsMode::flat
+                             : NormalsMode::asFile;
 }
 
 LoadOptions loadOptionsOf(const Settings& settings) {
@@ -90,15 +144,17 @@ AovSet aovsOf(const Settings& settings) {
     AovSet aovs;
     for (const json& name : settings.get("aov")) {
         const auto& names = aovNames();
-        aovs.insert(static_cast<Aov>(std::find(names.begin(), names.end(), name.get<std::string>()) - names.begin()));
+        aovs.insert(
+            static_cast<Aov>(std::find(names.begin(), names.end(), name.get<std::string>()) - names.begin()));
     }
     return aovs;
 }
 
 ToneMapping toneMappingOf(const Settings& settings) {
     const auto& names = toneMappingNames();
-    return static_cast<ToneMapping>(std::find(names.begin(), names.end(), settings.get("tone_mapping").get<std::string>()) -
-                                    names.begin());
+    return static_cast<ToneMapping>(
+        std::find(names.begin(), names.end(), settings.get("tone_mapping").get<std::string>()) -
+        names.begin());
 }
 
 Background backgroundOf(const Settings& settings) {

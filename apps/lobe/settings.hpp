@@ -1,5 +1,5 @@
-/// What can be set about a picture. One table: flags, -D keys, configuration files, batch files and the documentation
-/// are all derived from it.
+/// What can be set about a picture. One table: flags, -D keys, configuration files, batch files and the
+/// documentation are all derived from it.
 #pragma once
 
 #include <map>
@@ -19,16 +19,19 @@ namespace lobe::app {
 enum class SettingType { text, integer, real, choice, vector, colour, resolution, list };
 
 struct Setting {
-    std::string key;             ///< "tone_mapping"; its flag is "--tone-mapping"
+    std::string key;  ///< "tone_mapping"; its flag is "--tone-mapping"
     SettingType type;
     nlohmann::json defaultValue;  ///< null: not set (its meaning is in the help)
     std::string help;
     std::string group;
     std::vector<std::string> choices = {};  ///< for choice and list
     double minimum = 0.0, maximum = 0.0;    ///< for integer and real
+    std::string unit = {};                  ///< "degrees", "s"; empty: none
 
     std::string flag() const;
-    std::string valueName() const;  ///< "W,H", "NAME", "1..100", for help
+    std::string valueName() const;    ///< "W,H", "NAME", "N": short, for --help
+    std::string allowed() const;      ///< "1 to 100", "-90 to 90 degrees", "none|aces": for documentation
+    std::string defaultText() const;  ///< "1280,720"; empty where there is none
 };
 
 const std::vector<Setting>& settingTable();
@@ -36,7 +39,8 @@ std::vector<std::string> settingKeys();
 /// Throws UsageError "WHERE: unknown setting 'x'; did you mean 'y'?".
 const Setting& requireSetting(const std::string& key, const std::string& where);
 
-/// The canonical value of a setting from text ("1280x720") or JSON ([1280, 720]). Throws UsageError naming `where`.
+/// The canonical value of a setting from text ("1280x720") or JSON ([1280, 720]). Throws UsageError naming
+/// `where`.
 nlohmann::json parseSetting(const Setting& setting, const nlohmann::json& given, const std::string& where);
 
 /// Values with their origin. Later layers win, but for values marked with a leading '!'.
@@ -50,19 +54,26 @@ public:
 
     const nlohmann::json& get(const std::string& key) const;
     nlohmann::json toJson() const;  ///< key -> value, those that are set
-    std::string chain() const;      ///< "key = value (origin)" a line, for --verbose
+    /// "key = value (origin)" a line, with what it won over, for --verbose.
+    std::string chain() const;
 
 private:
-    struct Value {
+    struct Layer {
         nlohmann::json value;
-        std::string origin = "built-in";
+        std::string origin;
         bool forced = false;
     };
+    struct Value {
+        Layer winner;
+        std::vector<Layer> others;  ///< in the order in which they came
+    };
+    void put(const std::string& key, Layer layer);
     std::map<std::string, Value> values_;
 };
 
 // Typed readings of settings.
-Quality qualityOf(const Settings& settings);
+Quality qualityOf(const Settings& settings);     ///< the preset with the knobs that are set
+nlohmann::json knobsOf(const Quality& quality);  ///< as the settings anti_aliasing, gbuffer_bits, ...
 LoadOptions loadOptionsOf(const Settings& settings);
 AovSet aovsOf(const Settings& settings);
 ToneMapping toneMappingOf(const Settings& settings);

@@ -17,57 +17,103 @@ double aspectOf(const Settings& settings) {
     return size[0].get<double>() / size[1].get<double>();
 }
 
-glm::dvec3 vectorOf(const json& value) { return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()}; }
+glm::dvec3 vectorOf(const json& value) {
+    return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
 
-/// The pose before the turntable turns it, and what it turns about.
-std::pair<Camera, glm::dvec3> basePose(const Scene& scene, const Settings& settings) {
+struct Pose {
+    Camera camera;
+    glm::dvec3 pivot;   ///< what a turntable turns it about
+    bool ours = false;  ///< its depth range follows the scene; a file's camera keeps the file's
+};
+
+/// The pose before the turntable turns it.
+Pose basePose(const Scene& scene, const Settings& settings) {
+    requireOneCamera(settings);
     const Bounds bounds = scene.bounds();
     const json& position = settings.get("camera_position");
     const json& focal = settings.get("camera_focal_point");
     const json& azimuth = settings.get("camera_azimuth");
     const json& elevation = settings.get("camera_elevation");
     const json& name = settings.get("camera");
-    const int ways = !position.is_null() + (!azimuth.is_null() || !elevation.is_null()) + !name.is_null();
-    if (ways > 1)
-        throw UsageError("camera, camera_position and camera_azimuth/elevation are different ways to place the camera; expected one of them");
-    if (position.is_null() && !focal.is_null()) throw UsageError("camera_focal_point without camera_position; expected both");
     if (!position.is_null()) {
         const glm::dvec3 target = focal.is_null() ? bounds.center() : vectorOf(focal);
         Camera camera = lookAt(vectorOf(position), target, std::numbers::pi / 4);
-        fitDepthRange(camera, bounds);
-        return {camera, target};
+        camera.name = "position";
+        return {camera, target, true};
     }
+    if (!name.is_null()) return {findCamera(scene, name.get<std::string>()), bounds.center()};
     Framing framing;
     framing.fit = settings.get("orbit").get<double>() != 0.0 ? Fit::sphere : Fit::box;
-    if (const json& angle = settings.get("camera_view_angle"); !angle.is_null()) framing.verticalFov = angle.get<double>() * kRadians;
+    if (const json& angle = settings.get("camera_view_angle"); !angle.is_null())
+        framing.verticalFov = angle.get<double>() * kRadians;
     if (!azimuth.is_null() || !elevation.is_null()) {
         framing.azimuthDeg = azimuth.is_null() ? 0.0 : azimuth.get<double>();
         framing.elevationDeg = elevation.is_null() ? 0.0 : elevation.get<double>();
-        return {framingCamera(bounds, aspectOf(settings), framing), bounds.center()};
+    } else if (!scene.cameras.empty()) {
+        return {scene.cameras.front(), bounds.center()};
     }
-    if (!name.is_null()) return {findCamera(scene, name.get<std::string>()), bounds.center()};
-    if (!scene.cameras.empty()) return {scene.cameras.front(), bounds.center()};
-    return {framingCamera(bounds, aspectOf(settings), framing), bounds.center()};
+    return {framingCamera(bounds, aspectOf(settings), framing), bounds.center(), true};
+}
+
+bool needsLight(const Scene& scene) {
+    return scene.lights.empty() && !scene.ambientRadiance;
+}
+
+/// The key light belongs to the first frame's camera, so that it does not turn with a turntable.
+Camera keyLightCamera(const Scene& scene, const Settings& settings) {
+    return cameraOf(scene, settings, 0);
 }
 
 }  // namespace
 
-Camera cameraOf(const Scene& scene, const Settings& settings, int frame) {
-    auto [camera, pivot] = basePose(scene, settings);
-    if (const json& angle = settings.get("camera_view_angle"); !angle.is_null())
-        camera.verticalFov = angle.get<double>() * kRadians;
-    const double turn = settings.get("orbit").get<double>() * frame / settings.get("frames").get<int>();
-    return turn == 0.0 ? camera : orbited(camera, pivot, turn);
+void requireOneCamera(const Settings& settings) {
+    const auto isSet = [&](const char* key) { return !settings.get(key).is_null(); };
+    const int ways =
+        isSet("camera_position") + (isSet("camera_azimuth") || isSet("camera_elevation")) + isSet("camera");
+    if (ways > 1)
+        throw UsageError(
+            "camera, camera_position and camera_azimuth/elevation are different ways to place the camera; "
+            "expected one of them (-R KEY takes a setting back)");
+    if (isSet("camera_focal_point") && !isSet("camera_position"))
+        throw UsageError("camera_focal_point without camera_position; expected both");
 }
 
-std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& base, const Settings& settings) {
+Camera cameraOf(const Scene& scene, const Settings& settings, int frame) {
+    auto [camera, pivot, ours] = basePose(scene, settings);
+    if (const json& angle = settings.get("camera_view_angle"); !angle.is_null()) {
+        if (camera.orthographic)
+            throw UsageError(scene.file + ": camera '" + camera.name +
+                             "' is orthographic and has no view angle; expected no camera_view_angle");
+        camera.verticalFov = angle.get<double>() * kRadians;
+    }
+    const double turn = settings.get("orbit").get<double>() * frame / settings.get("frames").get<int>();
+    if (turn != 0.0) camera = orbited(camera, pivot, turn);
+    if (ours) fitDepthRange(camera, scene.bounds());
+    return camera;
+}
+
+json changesOf(const Scene& scene, const Settings& settings) {
+    json changes = json::object();
+    if (const json& brdf = settings.get("brdf"); !brdf.is_null()) changes["brdf"] = brdf;
+    if (needsLight(scene)) {
+        const glm::dmat4 pose =
+            keyLightCamera(scene, settings).worldFromCamera;  // the light follows its axes
+        for (int axis = 0; axis < 3; ++axis)
+            for (int row = 0; row < 3; ++row)
+                changes["key_light"].push_back(pose[axis][row]);
+    }
+    return changes;
+}
+
+std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& base,
+                                           const Settings& settings) {
     std::shared_ptr<Scene> changed;
     if (const json& brdf = settings.get("brdf"); !brdf.is_null())
         changed = std::make_shared<Scene>(withBrdf(*base, requireBrdf(brdf.get<std::string>())));
-    if (base->lights.empty() && !base->ambientRadiance) {
+    if (needsLight(*base)) {
         if (!changed) changed = std::make_shared<Scene>(*base);
-        // The key light belongs to the first frame's camera, so that it does not turn with a turntable.
-        addDefaultLight(*changed, cameraOf(*base, settings, 0));
+        addDefaultLight(*changed, keyLightCamera(*base, settings));
     }
     return changed ? changed : base;
 }

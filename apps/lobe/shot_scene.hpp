@@ -9,8 +9,16 @@
 
 namespace lobe::app {
 
+/// What of the settings changes the scene, by name: two shots with equal changes share the changed scene.
+/// Empty: none.
+nlohmann::json changesOf(const Scene& scene, const Settings& settings);
+
 /// The scene as the settings change it. `base` is returned itself if they do not.
-std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& base, const Settings& settings);
+std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& base,
+                                           const Settings& settings);
+
+/// Throws UsageError for settings that place the camera in more than one way, or half.
+void requireOneCamera(const Settings& settings);
 
 /// The camera of one frame. Throws UsageError (no such camera, contradictory settings).
 Camera cameraOf(const Scene& scene, const Settings& settings, int frame);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config.hpp"
@@ -13,9 +15,9 @@ namespace lobe::app {
 /// One picture.
 struct Shot {
     std::filesystem::path scene;
-    Settings settings;
-    int number = 1;   ///< running number n, over all shots of the command
-    int frame = 0;    ///< of settings' frames
+    std::shared_ptr<const Settings> settings;  ///< one for all frames of a turntable
+    int number = 1;                            ///< running number n, over all shots of the command
+    int frame = 0;                             ///< of settings' frames
     std::string output;
 };
 
@@ -26,25 +28,27 @@ struct Assignment {
     std::string value;
 };
 
+/// Settings that one place of a batch file gives, and that place's name.
+using SettingLayer = std::pair<nlohmann::json, std::string>;
+
 /// Where settings come from, weakest first: configs, preset and shot of a batch, the command line.
 struct SettingSources {
     std::vector<Config> configs;
     std::vector<Assignment> assignments;
 
-    Settings resolve(const std::string& scene, const std::vector<std::pair<nlohmann::json, std::string>>& batchLayers = {}) const;
+    Settings resolve(const std::filesystem::path& scene,
+                     const std::vector<SettingLayer>& batchLayers = {}) const;
 };
 
-/// Scene files below folders, in order of name; files as given. Throws InputError for what does not exist.
+/// Scene files below folders, in order of name; files as given. Throws InputError for what does not exist,
+/// and for a folder without scenes.
 std::vector<std::filesystem::path> sceneFiles(const std::vector<std::string>& inputs);
+
+/// Appends all frames that the settings ask for.
+void addFrames(std::vector<Shot>& shots, const std::filesystem::path& scene, Settings settings);
 
 /// Shots for scenes named on the command line: all frames of each.
 std::vector<Shot> shotsOf(const std::vector<std::filesystem::path>& scenes, const SettingSources& sources);
-
-/// Shots of a batch file (docs/batch.md).
-std::vector<Shot> shotsOfBatch(const std::filesystem::path& file, const SettingSources& sources);
-
-/// Fills in output names and refuses two shots with one name, unknown extensions, and layers in files without layers.
-void nameOutputs(std::vector<Shot>& shots);
 
 /// Every Nth shot from the Ith: a partition for I = 1..N. `text` is "I/N"; throws UsageError.
 std::vector<Shot> shard(const std::vector<Shot>& shots, const std::string& text);

@@ -9,7 +9,8 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "name_template.hpp"
+#include "batch.hpp"
+#include "output_name.hpp"
 
 namespace lobe::app {
 namespace {
@@ -82,9 +83,9 @@ TEST_F(Batches, PresetsInheritAndShotsWin) {
                                                         {"scene": ["x.gltf", "y.gltf"], "frames": 2, "output": "{model}{frame}.png"}]})"),
                      {});
     ASSERT_EQ(shots.size(), 5u);
-    EXPECT_EQ(shots[0].settings.get("exposure"), 2.0);
-    EXPECT_EQ(shots[0].settings.get("resolution"), nlohmann::json({64, 32}));
-    EXPECT_EQ(shots[0].settings.get("brdf"), "lambert");
+    EXPECT_EQ(shots[0].settings->get("exposure"), 2.0);
+    EXPECT_EQ(shots[0].settings->get("resolution"), nlohmann::json({64, 32}));
+    EXPECT_EQ(shots[0].settings->get("brdf"), "lambert");
     EXPECT_EQ(shots[0].scene, folder_ / "x.gltf") << "relative to the batch file";
     EXPECT_EQ(shots[4].frame, 1);
     EXPECT_EQ(shots[4].number, 5);
@@ -95,12 +96,12 @@ TEST_F(Batches, CommandLineWinsOverTheFileButForMarkedValues) {
     sources.assignments = {{Assignment::Kind::set, "exposure", "9"}, {Assignment::Kind::set, "time", "9"}};
     const auto shots =
         shotsOfBatch(write(R"({"shots": [{"scene": "x.gltf", "exposure": 1, "!time": 1}]})"), sources);
-    EXPECT_EQ(shots[0].settings.get("exposure"), 9.0);
-    EXPECT_EQ(shots[0].settings.get("time"), 1.0);
+    EXPECT_EQ(shots[0].settings->get("exposure"), 9.0);
+    EXPECT_EQ(shots[0].settings->get("time"), 1.0);
 }
 
 TEST_F(Batches, MistakesAreNamedWithTheirPlace) {
-    EXPECT_THAT(refusal("{"), HasSubstr("jobs.json:1: not JSON"));
+    EXPECT_THAT(refusal("{"), HasSubstr("jobs.json:1:1: not JSON"));
     EXPECT_THAT(refusal(R"({"shots": []})"), HasSubstr("at least one"));
     EXPECT_THAT(refusal(R"({"shot": []})"), HasSubstr("unknown key 'shot'"));
     EXPECT_THAT(refusal(R"({"shots": [{"preset": "a"}]})"),
