@@ -16,7 +16,8 @@
 
 namespace lobe {
 
-/// Pixel storage of EXR files.
+/// Pixel storage of EXR files. With half, "Z" and channels with a finite value beyond 65504 are stored as
+/// float all the same, so that nothing finite becomes infinite.
 enum class ExrPrecision : uint8_t { half, single };
 
 struct WriteOptions {
@@ -37,7 +38,8 @@ public:
     /// InputError.
     Bitmap decode(std::span<const std::byte> fileBytes, const std::string& what);
 
-    /// A picture as floats with its channel names as the file has them, and its metadata. Throws InputError.
+    /// A picture as floats with its channel names as the file has them (8- and 16-bit values as 0..1, not
+    /// linearised; the first part of a multi-part EXR), and its metadata. Throws InputError.
     Image read(const std::filesystem::path& file);
     std::map<std::string, std::string> readMetadata(const std::filesystem::path& file);
 
