@@ -8,18 +8,6 @@ namespace {
 
 constexpr const char* kSwizzle = "rgba";
 
-std::string glslType(const Parameter& parameter) {
-    switch (parameter.kind) {
-        case ParameterKind::rgb:
-            return "vec3";
-        case ParameterKind::choice:
-            return "int";
-        case ParameterKind::scalar:
-            break;
-    }
-    return "float";
-}
-
 std::string uniformName(const Parameter& parameter) {
     return "uParam_" + parameter.glslName;
 }
@@ -96,7 +84,7 @@ std::string occlusionAndNormal(const SurfaceFeatures& features) {
 std::string parameterFunction(const Brdf& brdf, const SurfaceFeatures& features) {
     std::string uniforms, body;
     for (const Parameter& parameter : brdf.parameters) {
-        uniforms += "uniform " + glslType(parameter) + " " + uniformName(parameter) + ";\n";
+        uniforms += std::string("uniform ") + glslType(parameter.kind) + " " + uniformName(parameter) + ";\n";
         std::string value = uniformName(parameter);
         if (const SurfaceTexture* texture = features.texture(parameter.name)) {
             value += " * " + fetch(*texture) + ".";
@@ -189,7 +177,7 @@ std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& planned
             for (int c = 0; c < parameter.components(); ++c, ++component)
                 value += (c ? ", m" : "m") + std::to_string(component / 4) + "." + kSwizzle[component % 4];
             texels = (component + 3) / 4;
-            body += "    p." + parameter.glslName + " = " + glslType(parameter) + "(" + value + ");\n";
+            body += "    p." + parameter.glslName + " = " + glslType(parameter.kind) + "(" + value + ");\n";
         }
         for (int t = 0; t < texels; ++t)
             fetches += "    vec4 m" + std::to_string(t) + " = texelFetch(uMaterials, row + " +
@@ -198,7 +186,7 @@ std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& planned
     for (int index = 0; index < static_cast<int>(brdf.parameters.size()); ++index) {
         if (elsewhere.contains(index)) continue;
         const Parameter& parameter = brdf.parameters[static_cast<size_t>(index)];
-        text += "uniform " + glslType(parameter) + " " + uniformName(parameter) + ";\n";
+        text += std::string("uniform ") + glslType(parameter.kind) + " " + uniformName(parameter) + ";\n";
         body += "    p." + parameter.glslName + " = " + uniformName(parameter) + ";\n";
     }
     return text + "MODEL_PARAMS gbuffer_read_params()\n{\n    MODEL_PARAMS p;\n" + fetches + body +

@@ -37,6 +37,8 @@ bool isValid(const Parameter& parameter, double value) {
     return parameter.kind != ParameterKind::choice || value == std::floor(value);
 }
 
+}  // namespace
+
 const char* glslType(ParameterKind kind) {
     switch (kind) {
         case ParameterKind::rgb:
@@ -48,8 +50,6 @@ const char* glslType(ParameterKind kind) {
     }
     return "float";
 }
-
-}  // namespace
 
 int Brdf::parameterIndex(std::string_view parameterName) const {
     const auto found = std::find_if(parameters.begin(), parameters.end(),

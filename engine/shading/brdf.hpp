@@ -103,6 +103,9 @@ const Brdf& requireBrdf(std::string_view name);
 /// Throws InputError "WHERE: PARAMETER: VALUE; expected MIN..MAX" if a value is out of range or not finite.
 void validateParameters(const Brdf& brdf, std::span<const double> values, const std::string& where);
 
+/// "vec3", "float" or "int".
+const char* glslType(ParameterKind kind);
+
 /// GLSL source of the struct for this model's parameters (fields in declaration order), e.g.
 /// "struct LambertParams { vec3 diffuse; };" and the type's name ("LambertParams").
 std::string glslParameterStruct(const Brdf& brdf);

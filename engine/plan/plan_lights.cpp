@@ -1,0 +1,55 @@
+// Lights: which are listed by cluster, and whether all fit.
+#include "base/error.hpp"
+#include "plan/planner.hpp"
+
+namespace lobe {
+
+void Planner::requireFit(const char* type, int count, int texelsEach) const {
+    const int most = capabilities_.maxTextureBufferTexels / texelsEach;
+    if (count > most)
+        throw ContextError("the scene has " + plural(count, std::string(type) + " light") +
+                           "; expected at most " + std::to_string(most) + ", what the driver's buffers hold");
+}
+
+void Planner::requireForwardLoop(const char* type, int global) const {
+    constexpr int kMost = 65000;
+    if (global > kMost && (scene_.blended || !deferred_))
+        throw InputError("the scene has " + plural(global, std::string(type) + " light") +
+                         " without range over blended surfaces; expected at most " + std::to_string(kMost));
+}
+
+void Planner::planLights() {
+    const int from = plan_.quality.clusterFrom;
+    const auto clustered = [&](const char* type, int count, int ranged, int& global) {
+        if (count == 0) return false;
+        const bool use = from > 0 && ranged >= from && count >= from;
+        global = use ? count - ranged : count;
+        std::string line =
+            std::string(type) + ": " + plural(count, "light") +
+            (use ? ", " + std::to_string(ranged) + " of them in clusters of 64 x 64 px and 24 slices of depth"
+                 : ", one loop over all");
+        if (!use)
+            line += from == 0       ? " (clusters are off)"
+                    : ranged < from ? " (fewer than " + std::to_string(from) + " with a range)"
+                                    : "";
+        plan_.lightGroups.push_back(line);
+        return use;
+    };
+    if (scene_.directionalLights > 0)
+        plan_.lightGroups.push_back("directional: " + plural(scene_.directionalLights, "light") +
+                                    ", one loop over all");
+    plan_.clusteredPoint =
+        clustered("point", scene_.pointLights, scene_.rangedPointLights, plan_.globalPointLights);
+    plan_.clusteredSpot =
+        clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
+    requireFit("directional", scene_.directionalLights, 2);
+    requireFit("point", scene_.pointLights, 2);
+    requireFit("spot", scene_.spotLights, 3);
+    requireForwardLoop("directional", scene_.directionalLights);
+    requireForwardLoop("point", plan_.globalPointLights);
+    requireForwardLoop("spot", plan_.globalSpotLights);
+    if (!plan_.clusteredPoint && !plan_.clusteredSpot)
+        leaveOut("buffer", "light clusters", "no light type has enough ranged lights for lists to pay");
+}
+
+}  // namespace lobe

@@ -1,0 +1,216 @@
+// Passes and the variants of their programs.
+#include <algorithm>
+#include <cctype>
+
+#include "plan/planner.hpp"
+
+namespace lobe {
+
+namespace {
+
+/// "aov.depth" as a define can be called: "AOV_DEPTH".
+std::string defineName(std::string name) {
+    std::replace(name.begin(), name.end(), '.', '_');
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return name;
+}
+
+}  // namespace
+
+Planner::Defines Planner::commonDefines() const {
+    Defines defines;
+    if (!plan_.reversedDepth) defines["LINEAR_Z"] = "1";
+    if (wideNormal_) defines["NORMAL_32F"] = "1";
+    if (plan_.channel("normal") != nullptr) defines["HAS_NORMAL"] = "1";
+    if (plan_.channel("material") != nullptr) defines["HAS_MATERIAL"] = "1";
+    for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
+        defines["HAS_PARAMETERS" + std::to_string(i)] = "1";
+    return defines;
+}
+
+void Planner::lightDefines(Defines& defines, LightType type) const {
+    switch (type) {
+        case LightType::directional:
+            defines["DIRECTIONAL_LIGHTS"] = "1";
+            break;
+        case LightType::point:
+            if (plan_.globalPointLights > 0) defines["POINT_LIGHTS"] = "1";
+            if (plan_.clusteredPoint) defines["POINT_CLUSTERS"] = "1";
+            break;
+        case LightType::spot:
+            if (plan_.globalSpotLights > 0) defines["SPOT_LIGHTS"] = "1";
+            if (plan_.clusteredSpot) defines["SPOT_CLUSTERS"] = "1";
+            break;
+    }
+}
+
+Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const {
+    Defines defines;
+    const auto flag = [&](const char* key, bool on) {
+        if (on) defines[key] = "1";
+    };
+    flag("UV0", features.usesUv(0));
+    flag("UV1", features.usesUv(1));
+    flag("VERTEX_COLORS", features.vertexColors);
+    flag("NORMAL_MAP", features.texture("normal") != nullptr);
+    flag("ALPHA_MASK", features.alphaMode == AlphaMode::mask);
+    flag("ALPHA_BLEND", features.alphaMode == AlphaMode::blend);
+    flag("EMISSION", features.emission);
+    flag("TANGENTS", features.texture("normal") != nullptr ||
+                         (features.brdf != kUnlit && requireBrdf(features.brdf).traits.usesTangent));
+    flag("UNLIT", features.brdf == kUnlit);
+    flag("AMBIENT", scene_.ambient && features.brdf != kUnlit);
+    flag("OCCLUSION", features.texture("occlusion") != nullptr);
+    flag("USES_TANGENT", features.brdf != kUnlit && requireBrdf(features.brdf).traits.usesTangent);
+    return defines;
+}
+
+void Planner::planPasses() {
+    planGbufferPass();
+    planCoverage();
+    planLightPass("light.directional", "pass/light.frag", LightType::directional, scene_.directionalLights);
+    planLightPass("light.point", "pass/light.frag", LightType::point, scene_.pointLights);
+    planLightPass("light.spot", "pass/light.frag", LightType::spot, scene_.spotLights);
+    planForward();
+    planAccumulation();
+    planDataAovs();
+}
+
+void Planner::planGbufferPass() {
+    if (!needsDeferredTargets_) {
+        leaveOut("pass", "gbuffer", deferred_ ? "no opaque surface" : "forward shading");
+        return;
+    }
+    PlannedPass pass{"gbuffer", "pass/gbuffer.frag", {}, {}, plan_.gbufferTargets, ""};
+    pass.writes.insert(pass.writes.begin(), "depth");
+    for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
+        const SurfaceFeatures& features = plan_.surfaces[i];
+        if (features.alphaMode == AlphaMode::blend) continue;
+        Defines defines = surfaceDefines(features);
+        defines.merge(commonDefines());
+        defines["GBUFFER"] = "1";
+        for (size_t t = 0; t < plan_.gbufferTargets.size(); ++t) {
+            defines["OUT_" + defineName(plan_.gbufferTargets[t])] = std::to_string(t);
+        }
+        pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
+    }
+    pass.reason = deferred_ ? plural(static_cast<int>(scene_.instances - scene_.blendedInstances),
+                                     "opaque or masked instance")
+                            : "data AOVs are asked for";
+    if (gbufferRadiance_)
+        pass.reason += "; emission and ambient light are written here, in place of passes of their own";
+    plan_.passes.push_back(pass);
+}
+
+void Planner::planCoverage() {
+    if (!hasDeferredSurface_) return;
+    if (gbufferRadiance_ && !contributions_) {
+        leaveOut("pass", "coverage", "the G-buffer pass writes radiance and with it coverage");
+        return;
+    }
+    plan_.passes.push_back({"coverage",
+                            "pass/coverage.frag",
+                            {{}},
+                            {"depth"},
+                            {"radiance"},
+                            "lighting passes add radiance only; coverage is set once"});
+}
+
+void Planner::planLightPass(const std::string& name, const std::string& program, LightType type, int count) {
+    static const char* const kinds[] = {"directional", "point", "spot"};
+    const std::string kind = kinds[static_cast<size_t>(type)];
+    if (count == 0) return leaveOut("pass", name, "the scene has no " + kind + " light");
+    if (!deferred_) return leaveOut("pass", name, "forward shading");
+    PlannedPass pass{name,
+                     program,
+                     {},
+                     {"depth"},
+                     {contributions_ ? "contribution." + kind : "radiance"},
+                     plural(count, kind + " light")};
+    for (const char* channel : {"linear_z", "normal", "material"})
+        if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
+    for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
+        pass.reads.push_back("parameters" + std::to_string(i));
+    for (const PlannedBrdf& brdf : plan_.brdfs) {
+        if (brdf.name == kUnlit) continue;
+        // Lists of clusters are drawn tile by tile, lights that reach everything over the whole picture:
+        // two programs.
+        Defines lights;
+        lightDefines(lights, type);
+        for (const auto& [key, value] : lights) {
+            Defines defines = commonDefines();
+            defines[key] = value;
+            if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
+            pass.variants.push_back({brdf.name, -1, defines});
+        }
+    }
+    if (pass.variants.empty()) return leaveOut("pass", name, "no opaque surface takes light");
+    plan_.passes.push_back(pass);
+}
+
+void Planner::planForward() {
+    if (!scene_.blended && deferred_) return leaveOut("pass", "forward", "no blended surface");
+    PlannedPass pass{"forward", "pass/forward.frag", {}, {"depth"}, {"radiance"}, ""};
+    if (contributions_) {
+        pass.writes.clear();
+        for (const std::string& name : plan_.contributionTargets)
+            pass.writes.push_back("contribution." + name);
+        pass.writes.emplace_back("radiance");  // coverage only
+    }
+    for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
+        const SurfaceFeatures& features = plan_.surfaces[i];
+        if (deferred_ && features.alphaMode != AlphaMode::blend) continue;
+        Defines defines = surfaceDefines(features);
+        if (features.brdf != kUnlit) {
+            if (scene_.directionalLights > 0) lightDefines(defines, LightType::directional);
+            if (scene_.pointLights > 0) lightDefines(defines, LightType::point);
+            if (scene_.spotLights > 0) lightDefines(defines, LightType::spot);
+        }
+        if (contributions_) defines["CONTRIBUTIONS"] = "1";
+        pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
+    }
+    pass.reason = deferred_ ? plural(static_cast<int>(scene_.blendedInstances), "blended instance") +
+                                  ", drawn back to front"
+                            : "forward shading is asked for";
+    plan_.passes.push_back(pass);
+}
+
+void Planner::planAccumulation() {
+    if (plan_.samples == 1) return leaveOut("pass", "accumulate", "one sample a pixel");
+    addChannel("accumulated", "RGBA32F", "sum of jittered frames",
+               "anti-aliasing by " + std::to_string(plan_.samples) + " samples");
+    plan_.passes.push_back({"accumulate",
+                            "pass/accumulate.frag",
+                            {{}},
+                            {"radiance"},
+                            {"accumulated"},
+                            plural(plan_.samples, "jittered frame") + " averaged"});
+}
+
+void Planner::planDataAovs() {
+    if (!dataAovs_) return leaveOut("pass", "aov", "no data AOV is asked for");
+    static const std::pair<Aov, const char*> kFormats[] = {
+        {Aov::depth, "R32F"},     {Aov::position, "RGBA32F"}, {Aov::normal, "RGBA32F"},
+        {Aov::albedo, "RGBA32F"}, {Aov::materialId, "R32F"},  {Aov::roughness, "R32F"}};
+    PlannedPass pass{
+        "aov", "pass/aov.frag", {}, {"depth"}, {}, "data AOVs are asked for; taken at pixel centres"};
+    Defines outputs;
+    for (const auto& [aov, format] : kFormats) {
+        if (!wants(aov)) continue;
+        const std::string name = aovNames()[static_cast<size_t>(aov)];
+        addChannel("aov." + name, format, name, "asked for as AOV");
+        outputs["OUT_" + defineName(name)] = std::to_string(plan_.dataTargets.size());
+        plan_.dataTargets.push_back("aov." + name);
+        pass.writes.push_back("aov." + name);
+    }
+    for (const PlannedBrdf& brdf : plan_.brdfs) {
+        Defines defines = commonDefines();
+        if (brdf.name == kUnlit) defines["UNLIT"] = "1";
+        defines.insert(outputs.begin(), outputs.end());
+        pass.variants.push_back({brdf.name, -1, defines});
+    }
+    plan_.passes.push_back(pass);
+}
+
+}  // namespace lobe

@@ -1,0 +1,76 @@
+/// How planFrame() decides; for the files of this folder only. What each step decides is in
+/// plan_channels.cpp, plan_lights.cpp and plan_passes.cpp.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "plan/plan.hpp"
+
+namespace lobe {
+
+/// "1 light", "2 lights".
+std::string plural(int count, const std::string& noun);
+
+/// Bytes a pixel of a format, by its OpenGL name.
+int bytesOfFormat(const std::string& format);
+
+class Planner {
+public:
+    using Defines = std::map<std::string, std::string>;
+
+    Planner(const SceneSummary& summary, const Quality& quality, const Capabilities& capabilities,
+            const AovSet& aovs)
+        : scene_(summary), capabilities_(capabilities), aovs_(aovs) {
+        plan_.quality = quality;
+    }
+    FramePlan plan();
+
+private:
+    bool wants(Aov aov) const { return aovs_.contains(aov); }
+    void leaveOut(const std::string& kind, const std::string& name, const std::string& reason) {
+        plan_.leftOut.push_back({kind, name, reason});
+    }
+    void addChannel(const std::string& name, const std::string& format, const std::string& holds,
+                    const std::string& reason) {
+        plan_.channels.push_back({name, format, bytesOfFormat(format), holds, reason});
+    }
+    void addTarget(const std::string& name, const std::string& format, const std::string& holds,
+                   const std::string& reason) {
+        addChannel(name, format, holds, reason);
+        plan_.gbufferTargets.push_back(name);
+    }
+    void planModels();
+    void planGeometryChannels();
+    void planNormal();
+    void planMaterialId();
+    void planParameters();
+    void planRadiance();
+    void requireFit(const char* type, int count, int texelsEach) const;
+    /// One loop of a fragment shader runs over all lights that reach everything; software drivers end loops
+    /// at 65535.
+    void requireForwardLoop(const char* type, int global) const;
+    /// Lights without range reach every pixel and stay outside the clusters.
+    void planLights();
+    Defines commonDefines() const;
+    void lightDefines(Defines& defines, LightType type) const;
+    Defines surfaceDefines(const SurfaceFeatures& features) const;
+    void planPasses();
+    void planGbufferPass();
+    void planCoverage();
+    void planLightPass(const std::string& name, const std::string& program, LightType type, int count);
+    void planForward();
+    void planAccumulation();
+    void planDataAovs();
+    void planVertexData();
+    const SceneSummary& scene_;
+    const Capabilities& capabilities_;
+    const AovSet& aovs_;
+    FramePlan plan_;
+    bool deferred_ = true, anyLight_ = false, unlit_ = false, hasDeferredSurface_ = false,
+         needsDeferredTargets_ = false;
+    bool dataAovs_ = false, contributions_ = false, gbufferRadiance_ = false, wideNormal_ = false,
+         table_ = false;
+};
+
+}  // namespace lobe
