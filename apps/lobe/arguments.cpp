@@ -92,10 +92,13 @@ bool Arguments::parse(const std::vector<std::string>& arguments) {
     } catch (const CLI::CallForHelp&) {
         std::cout << app_.help();
         return false;
+    } catch (const CLI::ConversionError& error) {  // of flags: other options are taken as text
+        throw UsageError(std::string(error.what()) + "; expected true or false");
     } catch (const CLI::ParseError& error) {
         throw UsageError(std::string(error.what()) + "; " + app_.get_name() + " --help shows how");
     }
     for (const std::string& extra : app_.remaining()) {
+        if (extra == "--") continue;  // what follows are scenes, whatever they start with
         const std::string name = extra.substr(0, extra.find('='));
         if (extra.starts_with("-") && extra != "-")
             throw UsageError("unknown option " + name + didYouMean(name, optionNames()));

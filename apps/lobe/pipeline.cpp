@@ -199,6 +199,16 @@ void runShots(const std::vector<Shot>& shots, const PipelineOptions& options, Re
 
     std::unique_ptr<gl::Context> context;
     try {
+        for (size_t i = 0; i < encoderCount(inFlight); ++i)
+            encoding.emplace_back(
+                [&] {
+                    ImageFiles files;  // its helper program starts while the context is made
+                    while (auto job = drawn.pop()) {
+                        encode(*job, files);
+                        outcomes.add(job->number, std::move(job->outcome));
+                    }
+                },
+                [&] { drawn.close(); });
         context = gl::Context::create(options.context);
         reporter.setContext(context->info().backend + " " + context->info().platform,
                             context->info().renderer);
@@ -206,16 +216,6 @@ void runShots(const std::vector<Shot>& shots, const PipelineOptions& options, Re
         contextPromise.set_exception(std::current_exception());
         throw;
     }
-    for (size_t i = 0; i < encoderCount(inFlight); ++i)
-        encoding.emplace_back(
-            [&] {
-                ImageFiles files;
-                while (auto job = drawn.pop()) {
-                    encode(*job, files);
-                    outcomes.add(job->number, std::move(job->outcome));
-                }
-            },
-            [&] { drawn.close(); });
     contextPromise.set_value(context->info());
     {
         Drawer drawer(*context, options.timePasses);

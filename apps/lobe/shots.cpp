@@ -57,6 +57,7 @@ std::vector<fs::path> sceneFiles(const std::vector<std::string>& inputs) {
         if (input == "-")
             throw UsageError(
                 "scene '-': a scene is read with the files beside it; expected a file or folder");
+        if (input.empty()) throw UsageError("scene ''; expected a file or folder");
         std::error_code failed;
         if (!fs::exists(input, failed)) throw InputError(input + ": no such file");
         if (!fs::is_directory(input, failed)) {
