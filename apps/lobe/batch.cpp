@@ -63,7 +63,7 @@ private:
             require(parent.is_string(),
                     "preset '" + current + "': inherits " + parent.dump() + "; expected a name");
             require(
-                parent == "" || presets_.contains(parent.get<std::string>()),
+                parent.get<std::string>().empty() || presets_.contains(parent.get<std::string>()),
                 "preset '" + current + "': inherits '" + parent.get<std::string>() + "'; " + presetNames());
             preset.erase("inherits");
             const std::string origin = file_.string() + ": preset " + current;
@@ -79,7 +79,7 @@ private:
                                      const std::string& what) const {
         std::vector<std::string> names;
         for (const json& name : value.is_array() ? value : json::array({value})) {
-            require(name.is_string() && name != "",
+            require(name.is_string() && !name.get_ref<const std::string&>().empty(),
                     where + ": " + name.dump() + "; expected " + what + " or a list of them");
             names.push_back(name.get<std::string>());
         }

@@ -70,6 +70,7 @@ int run(const std::vector<std::string>& arguments) {
     const auto command = commands.find(first);
     if (command == commands.end()) {
         std::vector<std::string> names;
+        names.reserve(commands.size());
         for (const auto& [name, function] : commands)
             names.push_back(name);
         throw lobe::UsageError("unknown command '" + first + "'" + lobe::didYouMean(first, names));

@@ -33,6 +33,7 @@ std::string field(const std::string& inside, const std::string& text,
     const auto found = values.find(name);
     if (found == values.end()) {
         std::vector<std::string> names;
+        names.reserve(values.size());
         for (const auto& [known, value] : values)
             names.push_back(known);
         throw UsageError("output '" + text + "': unknown field {" + name + "}" + didYouMean(name, names));

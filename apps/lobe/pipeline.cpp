@@ -74,8 +74,8 @@ public:
         const gl::ContextInfo& context = context_.get();  // outside: no context is no fault of the shot
         attempt(outcome, [&] {
             job.record = recordOf(outcome.shot, *job.scene, job.camera, context);
-            if (!options_.reproduced.is_null())
-                for (const std::string& line : differences(options_.reproduced, job.record))
+            if (options_.reproduced != nullptr)
+                for (const std::string& line : differences(*options_.reproduced, job.record))
                     outcome.warnings.push_back(line);
             outcome.skipped = files_ && isThere(job);
         });

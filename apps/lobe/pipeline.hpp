@@ -17,7 +17,7 @@ struct PipelineOptions {
     gl::ContextRequest context;
     bool resume = false;  ///< leave out pictures that are there and were made the same way
     bool timePasses = false;
-    nlohmann::json reproduced;  ///< record that the picture should have again; null: none
+    const nlohmann::json* reproduced = nullptr;  ///< record that the picture should have again
 };
 
 /// Every shot ends in one outcome, in order, to `reporter`. Errors of single shots are outcomes; what

@@ -54,7 +54,7 @@ json recordIn(const std::map<std::string, std::string>& metadata, const std::str
     const auto found = metadata.find(kRecordKey);
     if (found == metadata.end())
         throw InputError(file + ": has no record of how it was made; expected a picture that lobe rendered");
-    const json record = json::parse(found->second, nullptr, false);
+    json record = json::parse(found->second, nullptr, false);
     const auto has = [&](const char* key, bool (json::*isType)() const noexcept) {
         return record.contains(key) && (record[key].*isType)();
     };

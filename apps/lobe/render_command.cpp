@@ -54,35 +54,27 @@ void addOptions(CLI::App& app, RenderArguments& r) {
     addFlag("--headless", r.headless, "accepted for habit's sake: rendering never needs a display");
 }
 
-/// What is to be made, and the record that it should have, if any.
-struct Request {
-    std::vector<Shot> shots;
-    nlohmann::json reproduced;
-};
-
-Request requestOf(const RenderArguments& r, const SettingSources& sources) {
-    if (!r.batch.empty() && !(r.inputs.empty() && r.reproduce.empty()))
-        throw UsageError("--batch, and scenes or --reproduce, exclude each other");
-    if (!r.batch.empty()) return {shotsOfBatch(r.batch, sources), {}};
-    if (r.reproduce.empty()) {
-        if (r.inputs.empty()) throw UsageError("nothing to render; expected scenes, --batch or --reproduce");
-        return {shotsOf(sceneFiles(r.inputs), sources), {}};
-    }
-    ImageFiles files;
-    Request request;
-    request.reproduced = recordIn(files.readMetadata(r.reproduce), r.reproduce);
-    Shot shot = shotOf(request.reproduced, r.reproduce, sources);
+/// The shot of a picture that is to be made again.
+Shot shotOfPicture(const RenderArguments& r, const nlohmann::json& record, const SettingSources& sources) {
+    Shot shot = shotOf(record, r.reproduce, sources);
     if (shot.settings->get("output").is_null())
         throw UsageError("--reproduce without --output; expected a name for the new picture");
-    if (!r.inputs.empty()) {
-        const std::vector<std::filesystem::path> scenes = sceneFiles(r.inputs);
-        if (scenes.size() != 1)
-            throw UsageError(std::to_string(scenes.size()) +
-                             " scenes beside --reproduce; expected at most one");
-        shot.scene = scenes[0];
-    }
-    request.shots = {shot};
-    return request;
+    if (r.inputs.empty()) return shot;
+    const std::vector<std::filesystem::path> scenes = sceneFiles(r.inputs);
+    if (scenes.size() != 1)
+        throw UsageError(std::to_string(scenes.size()) + " scenes beside --reproduce; expected at most one");
+    shot.scene = scenes[0];
+    return shot;
+}
+
+std::vector<Shot> shotsIn(const RenderArguments& r, const nlohmann::json& record,
+                          const SettingSources& sources) {
+    if (!r.batch.empty() && !(r.inputs.empty() && r.reproduce.empty()))
+        throw UsageError("--batch, and scenes or --reproduce, exclude each other");
+    if (!r.batch.empty()) return shotsOfBatch(r.batch, sources);
+    if (!r.reproduce.empty()) return {shotOfPicture(r, record, sources)};
+    if (r.inputs.empty()) throw UsageError("nothing to render; expected scenes, --batch or --reproduce");
+    return shotsOf(sceneFiles(r.inputs), sources);
 }
 
 /// The context is one for all shots.
@@ -131,7 +123,9 @@ int renderCommand(const std::vector<std::string>& list) {
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;
 
-    auto [shots, reproduced] = requestOf(r, arguments.sources());
+    nlohmann::json record;  // of the picture to reproduce
+    if (!r.reproduce.empty()) record = recordIn(ImageFiles().readMetadata(r.reproduce), r.reproduce);
+    std::vector<Shot> shots = shotsIn(r, record, arguments.sources());
     forEachSettings(shots, [](const Shot& shot) { requireOneCamera(*shot.settings); });
     nameOutputs(shots);
     if (!r.filter.empty()) {
@@ -157,7 +151,7 @@ int renderCommand(const std::vector<std::string>& list) {
     options.context = contextOf(shots);
     options.resume = r.resume;
     options.timePasses = r.json || r.verbose;
-    options.reproduced = reproduced;
+    if (!record.is_null()) options.reproduced = &record;
     Reporter reporter(shots.size(), r.json,
                       r.quiet     ? Verbosity::quiet
                       : r.verbose ? Verbosity::verbose

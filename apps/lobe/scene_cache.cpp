@@ -54,8 +54,7 @@ std::shared_ptr<const Scene> SceneCache::loaded(const Shot& shot, const json& ke
         return entry->scene;
     }
     try {
-        const auto scene =
-            std::make_shared<const Scene>(loader_.load(shot.scene, loadOptionsOf(*shot.settings)));
+        auto scene = std::make_shared<const Scene>(loader_.load(shot.scene, loadOptionsOf(*shot.settings)));
         keep({key, scene, {}, bytesOf(*scene)});
         return scene;
     } catch (const InputError& failure) {
@@ -68,12 +67,12 @@ std::shared_ptr<const Scene> SceneCache::get(const Shot& shot) {
     const LoadOptions options = loadOptionsOf(*shot.settings);
     const json fileKey = {std::filesystem::absolute(shot.scene).string(), options.time,
                           static_cast<int>(options.normals)};
-    const std::shared_ptr<const Scene> base = loaded(shot, fileKey);
+    std::shared_ptr<const Scene> base = loaded(shot, fileKey);
     const json changes = changesOf(*base, *shot.settings);
     if (changes.empty()) return base;
     const json key = {fileKey, base->contentHash, changes};
     if (const Entry* entry = find(key)) return entry->scene;
-    const std::shared_ptr<const Scene> prepared = preparedScene(base, *shot.settings);
+    std::shared_ptr<const Scene> prepared = preparedScene(base, *shot.settings);
     keep({key, prepared, {}, bytesOf(*prepared)});
     return prepared;
 }

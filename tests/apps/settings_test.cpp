@@ -83,6 +83,34 @@ TEST(Settings, ChainNamesEachOrigin) {
     EXPECT_THAT(settings.chain(), HasSubstr("quality = \"balanced\" (built-in)"));
 }
 
+TEST(Settings, ChainSaysWhatWasWonOver) {
+    Settings settings;
+    settings.set("exposure", 1.0, "a.json");
+    settings.set("!exposure", 2.0, "b.json");
+    settings.set("exposure", 3.0, "command line");
+    EXPECT_THAT(
+        settings.chain(),
+        HasSubstr(
+            "exposure = 2.0 (b.json) must win over 3.0 (command line), 1.0 (a.json), 0.0 (built-in)\n"));
+    EXPECT_THAT(settings.chain(), HasSubstr("anti_aliasing = \"ssaa4\" (quality)\n"));
+}
+
+TEST(Settings, ListsAreSets) {
+    const Setting& aov = requireSetting("aov", "");
+    EXPECT_EQ(parseSetting(aov, "depth,radiance,depth", ""), json({"radiance", "depth"}));
+    EXPECT_EQ(parseSetting(aov, json({"depth", "radiance"}), ""), json({"radiance", "depth"}));
+    for (const json& wrong : {json(""), json("depth,"), json::array(), json(3), json({1})})
+        EXPECT_THAT(refusal([&] { parseSetting(aov, wrong, "here"); }), HasSubstr("here: aov")) << wrong;
+}
+
+TEST(Settings, KnobsOfAQualityGiveThatQualityAgain) {
+    for (const std::string& name : qualityPresetNames()) {
+        Settings settings;
+        settings.setAll(knobsOf(qualityPreset(name)), name);
+        EXPECT_EQ(qualityOf(settings), qualityPreset(name)) << name;
+    }
+}
+
 TEST(Settings, KnobsWinOverPresetsWhateverTheOrder) {
     Settings before, after;
     before.set("anti_aliasing", "none", "");

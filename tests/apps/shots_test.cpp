@@ -57,7 +57,8 @@ TEST(Shards, EveryShotIsInExactlyOneShard) {
             EXPECT_EQ(seen.size(), static_cast<size_t>(count));
             EXPECT_EQ(std::set<int>(seen.begin(), seen.end()).size(), static_cast<size_t>(count));
         }
-    for (const char* wrong : {"0/2", "3/2", "1", "a/b", "1/0", "-1/2", "/"})
+    for (const char* wrong :
+         {"0/2", "3/2", "1", "a/b", "1/0", "-1/2", "/", "1x/2", "1/2x", "1/2/3", " 1/2", "+1/2", ""})
         EXPECT_THROW(shard(numbered(3), wrong), UsageError) << wrong;
 }
 
@@ -66,7 +67,8 @@ TEST(Templates, FieldsPaddingEscapesAndHashes) {
     EXPECT_EQ(expandTemplate("out/{model}_{n:3}.png", values), "out/helmet_007.png");
     EXPECT_EQ(expandTemplate("a{{b}}c_####", values), "a{b}c_0007");
     EXPECT_EQ(expandTemplate("{frame:1}", values), "12");
-    for (const char* wrong : {"{modle}", "{model", "model}", "{n:x}", "{n:}"})
+    EXPECT_EQ(expandTemplate("{model}", {{"model", "a/b"}}), "a_b") << "a value makes no folder";
+    for (const char* wrong : {"{modle}", "{model", "model}", "{n:x}", "{n:}", "{model:3}", "{n:100}", "{}"})
         EXPECT_THROW(expandTemplate(wrong, values), UsageError) << wrong;
     try {
         expandTemplate("{modle}", values);
@@ -118,6 +120,24 @@ TEST_F(Batches, MistakesAreNamedWithTheirPlace) {
         refusal(
             R"({"shots": [{"scene": "x.gltf", "output": "a.png"}, {"scene": "y.gltf", "output": "a.png"}]})"),
         HasSubstr("is the name of two pictures"));
+    EXPECT_THAT(
+        refusal(
+            R"({"shots": [{"scene": "x.gltf", "output": "a.png"}, {"scene": "y.gltf", "output": "./b/../a.png"}]})"),
+        HasSubstr("is the name of two pictures"));
+    EXPECT_THAT(refusal(R"({"presets": {"unused": {"expsure": 1}}, "shots": [{"scene": "x.gltf"}]})"),
+                HasSubstr("preset unused: unknown setting 'expsure'"));
+    EXPECT_THAT(refusal(R"({"presets": {"a": {"inherits": 3}}, "shots": [{"scene": "x.gltf"}]})"),
+                HasSubstr("preset 'a': inherits 3; expected a name"));
+    EXPECT_THAT(refusal(R"({"presets": {"a": {"inherits": "b"}}, "shots": [{"scene": "x.gltf"}]})"),
+                HasSubstr("inherits 'b'; expected one of a"));
+    EXPECT_THAT(refusal(R"({"schema": 2, "shots": [{"scene": "x.gltf"}]})"),
+                HasSubstr("schema: 2; expected 1"));
+    EXPECT_THAT(refusal(R"({"shots": [{"scene": [1]}]})"), HasSubstr("shots[0].scene: 1; expected a path"));
+    EXPECT_THAT(refusal(R"({"shots": [{"scene": []}]})"), HasSubstr("at least one"));
+    EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "preset": {}}]})"), HasSubstr("shots[0].preset"));
+    EXPECT_THAT(
+        refusal(R"({"shots": [{"scene": "x.gltf", "background": "transparent", "output": "a.jpg"}]})"),
+        HasSubstr("expected a .png file"));
     EXPECT_THAT(refusal(R"({"shots": [{"scene": "x.gltf", "output": "a.bmp"}]})"),
                 HasSubstr("expected .png, .jpg, .exr or .hdr"));
     EXPECT_THAT(
