@@ -14,7 +14,9 @@ namespace {
 /// As few digits as give the number back.
 std::string shortest(double value) {
     std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
+    return {text.data(), end};
 }
 
 }  // namespace

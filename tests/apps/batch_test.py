@@ -156,6 +156,15 @@ class SettingsFromFilesAndFlags(LobeTest):
             self.assertIn(flag, options)
             self.assertEqual(flag, "--" + key.replace("_", "-"))
 
+    def test_examples_in_the_documentation_are_accepted(self):
+        documents = pathlib.Path(__file__).resolve().parents[2] / "docs"
+        for name, option, count in (("batch.md", "--batch", 39), ("cli.md", "--config", 1)):
+            example = (documents / name).read_text().split("```json\n")[1].split("```")[0]
+            self.write("example.json", example)
+            scenes = [] if option == "--batch" else [self.scene]
+            listed = self.lobe("render", *scenes, option, "example.json", "--list").stdout
+            self.assertEqual(len(listed.splitlines()), count, name)
+
     def test_spellings_of_options(self):
         size = ["--list", "--json"]
         for spelling in (["-r", "64", "36"], ["-r", "64x36"], ["-r64,36"], ["--resolution=64,36"], ["--resolution", "64", "36"],
