@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "import/accessors.hpp"
 #include "import/animation.hpp"
@@ -19,6 +20,9 @@ namespace lobe {
 namespace {
 
 constexpr size_t kMostInstances = size_t{1} << 22;  // a small file can ask for very many by sharing meshes
+/// Bytes of geometry, and their multiple of the file's own bytes, beyond which a scene is taken for a bomb.
+constexpr uint64_t kGeometryBytes = uint64_t{2} << 30;
+constexpr uint64_t kGeometryGrowth = 40;
 
 /// glTF's texture transform: scale, then rotate, then move.
 glm::vec2 transformed(const glm::vec2& uv, const TextureSlot& slot) {
@@ -43,6 +47,7 @@ public:
         pose_ = readRestPose(document_);
         scene.animationDurations = animate(document_, options_.time, pose_);
         world_ = worldPose(document_, tree_, pose_);
+        checkGeometry();
         for (const int node : tree_.drawn) {
             addNode(static_cast<size_t>(node));
         }
@@ -57,6 +62,35 @@ public:
     }
 
 private:
+    /// Refuses a scene whose primitives, which may share accessors or have no bytes of their own, unpack to far
+    /// more than the file holds, before any is unpacked. The largest is left to the checks of its accessors.
+    void checkGeometry() const {
+        uint64_t most = 0;
+        for (const std::span<const std::byte> buffer : document_.buffers) {
+            most += buffer.size() * kGeometryGrowth;
+        }
+        most = std::max(most, kGeometryBytes);
+        std::set<int> shared;
+        uint64_t bytes = 0;
+        uint64_t largest = 0;
+        for (const int node : tree_.drawn) {
+            const tinygltf::Node& source = document_.model.nodes[static_cast<size_t>(node)];
+            const bool own = source.skin >= 0 || !pose_[static_cast<size_t>(node)].weights.empty();
+            if (source.mesh < 0 || (!own && !shared.insert(source.mesh).second)) {
+                continue;
+            }
+            for (const uint64_t one : geometryBytes(document_, static_cast<size_t>(source.mesh))) {
+                bytes += one;
+                largest = std::max(largest, one);
+            }
+            if (bytes - largest > most) {
+                refuse(document_.file, at("meshes", static_cast<size_t>(source.mesh)),
+                       "brings the scene's geometry to " + std::to_string(bytes >> 20) + " MiB",
+                       "at most " + std::to_string(most >> 20) + " MiB in a file of this size");
+            }
+        }
+    }
+
     void addNode(size_t node) {
         const tinygltf::Node& source = document_.model.nodes[node];
         if (source.mesh < 0) {

@@ -281,6 +281,24 @@ private:
 
 }  // namespace
 
+std::vector<uint64_t> geometryBytes(const Document& document, size_t mesh) {
+    constexpr uint64_t kVertexBytes = 2 * sizeof(glm::vec3);  // position and normal, which all have
+    std::vector<uint64_t> bytes;
+    for (const tinygltf::Primitive& primitive : document.model.meshes[mesh].primitives) {
+        const auto position = primitive.attributes.find("POSITION");
+        if (position == primitive.attributes.end()) {
+            continue;
+        }
+        const auto count = [&](int accessor) {
+            return uint64_t{document.model.accessors[static_cast<size_t>(accessor)].count};
+        };
+        const uint64_t vertices = count(position->second);
+        bytes.push_back(vertices * kVertexBytes +
+                        (primitive.indices < 0 ? vertices : count(primitive.indices)) * sizeof(uint32_t));
+    }
+    return bytes;
+}
+
 std::optional<SourceMesh> readSourceMesh(Document& document, size_t mesh, size_t primitive,
                                          const std::vector<double>& morphWeights) {
     return Reader(document, mesh, primitive).read(morphWeights);

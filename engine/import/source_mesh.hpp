@@ -17,6 +17,9 @@ struct SourceMesh {
     std::vector<std::vector<glm::vec4>> weights;
 };
 
+/// Least bytes that each primitive of a mesh takes unpacked, from the counts that it states.
+std::vector<uint64_t> geometryBytes(const Document& document, size_t mesh);
+
 /// Nothing, with a warning, for what is not drawn: points, lines, and primitives without positions.
 /// `morphWeights` has one weight a target or is empty. Throws InputError.
 std::optional<SourceMesh> readSourceMesh(Document& document, size_t mesh, size_t primitive,

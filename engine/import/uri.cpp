@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "import/refuse.hpp"
 
@@ -132,8 +133,9 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& fi
     if (!decodePercent(body, decoded)) {
         refuse(file, property, std::string(uri.substr(0, 100)), "two hexadecimal digits after each %");
     }
-    bytes.resize(decoded.size());
-    std::memcpy(bytes.data(), decoded.data(), decoded.size());
+    bytes.reserve(decoded.size());
+    std::transform(decoded.begin(), decoded.end(), std::back_inserter(bytes),
+                   [](char c) { return static_cast<std::byte>(c); });
     return bytes;
 }
 
