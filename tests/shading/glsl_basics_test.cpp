@@ -81,27 +81,87 @@ TEST_P(GlslBasics, Log1p) {
         double& worst = std::abs(inputs[i]) < 0.3f ? worstSmall : worstLarge;
         worst = std::max(worst, error);
     }
-    // Small: about six roundings. Large: the built-in's 1.7e-7 absolute where |log| > 0.26, and the rounding
-    // of 1 + x.
-    EXPECT_LT(worstSmall, 4e-7);
-    EXPECT_LT(worstLarge, 1.7e-7 / 0.26 + 2 * kFloatRounding / 0.26);
+    // Small: about five roundings. Large: the rounding of 1 + x, 2^-24, against a logarithm above 0.26, and
+    // about five roundings.
+    EXPECT_LT(worstSmall, 5 * kFloatRounding);
+    EXPECT_LT(worstLarge, (1.0 / 0.26 + 5) * kFloatRounding);
     std::printf("log1p: %.2e relative for |x| < 0.3, %.2e beyond\n", worstSmall, worstLarge);
 }
 
-TEST_P(GlslBasics, ExpNegative) {
-    const Evaluator evaluator(library(), {"exp_negative",
+TEST_P(GlslBasics, Exp) {
+    const Evaluator evaluator(
+        library(),
+        {"exp", {"common/numeric.glsl"}, {{"float", "x"}}, "    result[0].x = numeric_exp(x);", 1, {}});
+    Pcg32 random(34);
+    std::vector<float> inputs{0.0f, -0.0f, 1.0f, -87.0f, 88.0f, -87.001f, -1e6f, -INFINITY};
+    for (int i = 0; i < test::tableScale(100000); ++i) {
+        inputs.push_back(static_cast<float>(random.uniform(-87.0, 88.0)));
+        inputs.push_back(
+            static_cast<float>((random.below(2) == 0 ? -1.0 : 1.0) * random.logUniform(1e-30, 80.0)));
+    }
+    const harness::ResultTable table = evaluator.evaluate(inputs);
+    double worst = 0.0;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        const double value = double(table.row(i)[0]);
+        if (inputs[i] < -87.0f) {
+            EXPECT_EQ(value, 0.0) << inputs[i];
+            continue;
+        }
+        const double exact = std::exp(double(inputs[i]));
+        worst = std::max(worst, std::abs(value - exact) / exact);
+    }
+    // The argument's reduction, the last step of the series and its coefficients: four roundings at most.
+    EXPECT_LT(worst, 4 * kFloatRounding);
+    std::printf("exp: %.2e relative\n", worst);
+}
+
+TEST_P(GlslBasics, Log) {
+    const Evaluator evaluator(
+        library(),
+        {"log", {"common/numeric.glsl"}, {{"float", "x"}}, "    result[0].x = numeric_log(x);", 1, {}});
+    Pcg32 random(35);
+    std::vector<float> inputs{1.0f, 0x1.fffffep-1f, 0x1.000002p0f, 0x1p-126f, 0x1.fffffep127f, 2.0f, 0.5f};
+    for (int i = 0; i < test::tableScale(100000); ++i) {
+        inputs.push_back(static_cast<float>(random.logUniform(1.2e-38, 3.4e38)));
+        inputs.push_back(static_cast<float>(random.uniform(0.5, 2.0)));
+        inputs.push_back(static_cast<float>(1.0 + random.logUniform(1e-7, 0.1)));
+    }
+    const harness::ResultTable table = evaluator.evaluate(inputs);
+    double worst = 0.0;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        const double exact = std::log(double(inputs[i]));
+        const double value = double(table.row(i)[0]);
+        if (exact == 0.0)
+            EXPECT_EQ(value, 0.0);
+        else
+            worst = std::max(worst, std::abs(value - exact) / std::abs(exact));
+    }
+    EXPECT_LT(worst, 5 * kFloatRounding);
+    std::printf("log: %.2e relative\n", worst);
+}
+
+TEST_P(GlslBasics, Pow) {
+    const Evaluator evaluator(library(), {"pow",
                                           {"common/numeric.glsl"},
-                                          {{"float", "x"}},
-                                          "    result[0].x = numeric_exp_negative(x);",
+                                          {{"float", "x"}, {"float", "y"}},
+                                          "    result[0].x = numeric_pow(x, y);",
                                           1,
                                           {}});
-    const std::vector<float> inputs{0.0f, 1.0f, 80.0f, 150.0f, 1e6f, 3e38f, INFINITY};
+    Pcg32 random(36);
+    std::vector<float> inputs;
+    for (int i = 0; i < test::tableScale(100000); ++i) {
+        const auto x = static_cast<float>(random.logUniform(1e-6, 1e6));
+        inputs.push_back(x);
+        inputs.push_back(
+            static_cast<float>(random.uniform(-80.0, 80.0) / std::max(std::abs(std::log(double(x))), 1e-3)));
+    }
     const harness::ResultTable table = evaluator.evaluate(inputs);
-    for (size_t i = 0; i < inputs.size(); ++i) {
-        const double exact = std::exp(-double(inputs[i]));
-        // 4 + |x| ulp: the bound that model tolerances use.
-        const double ulps = 4.0 + std::min(double(inputs[i]), 200.0);
-        EXPECT_NEAR(double(table.row(i)[0]), exact, ulps * 0x1p-23 * exact + 1e-38) << inputs[i];
+    for (size_t i = 0; i < table.rows(); ++i) {
+        const double exponent = double(inputs[2 * i + 1]) * std::log(double(inputs[2 * i]));
+        const double exact = std::exp(exponent);
+        // The exponent carries the logarithm's five roundings and its own; exp adds four.
+        EXPECT_NEAR(double(table.row(i)[0]), exact, (4 + 6 * std::abs(exponent)) * kFloatRounding * exact)
+            << inputs[2 * i] << " ^ " << inputs[2 * i + 1];
     }
 }
 
