@@ -23,11 +23,8 @@ vec3 octahedral_decode(vec2 p)
     return normalize(n);
 }
 
-/// Into [0, 1]^2, to be stored in RG16 (unsigned normalised).
-vec2 octahedral_encode_unorm16(vec3 n)
-{
-    return floor((octahedral_encode(n) * 0.5 + 0.5) * 65534.0 + 0.5) / 65535.0;
-}
+/// Into [0, 1]^2, to be stored in RG16 (unsigned normalised), whose conversion rounds to the nearest of 65535 steps.
+vec2 octahedral_encode_unorm16(vec3 n) { return octahedral_encode(n) * (32767.0 / 65535.0) + 32767.0 / 65535.0; }
 
 vec3 octahedral_decode_unorm16(vec2 stored)
 {
