@@ -67,7 +67,8 @@ public:
             const auto start = Clock::now();
             job.scene = scenes_.get(outcome.shot);
             outcome.loadMs = millisecondsSince(start);
-            outcome.warnings = job.scene->warnings;
+            for (const std::string& warning : job.scene->warnings)
+                outcome.warnings.push_back(job.scene->file + ": " + warning);
             job.camera = cameraOf(*job.scene, *outcome.shot.settings, outcome.shot.frame);
             outcome.camera = job.camera.name;
         });

@@ -54,7 +54,7 @@ int planCommand(const std::vector<std::string>& list) {
     const FramePlan plan =
         planFrame(summarise(*scene), options.quality, capabilitiesFor(settings), options.aovs);
     for (const std::string& warning : scene->warnings)
-        std::cerr << "lobe: warning: " << warning << '\n';
+        std::cerr << "lobe: warning: " << scene->file << ": " << warning << '\n';
     std::cout << (json ? toJson(plan) + "\n" : toText(plan));
     return 0;
 }
