@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/gtc/constants.hpp>
+#include <map>
 
 #include "math/random.hpp"
 #include "math/sphere.hpp"
@@ -13,9 +14,29 @@ namespace {
 
 const glm::dvec3 kNormal(0.0, 0.0, 1.0);
 
+/// A model's example tables, made once, each number rounded to a float.
+const std::vector<TableRows>& exampleTables(const Brdf& brdf) {
+    static std::map<std::string, std::vector<TableRows>> known;
+    std::vector<TableRows>& tables = known[brdf.name];
+    if (tables.empty())
+        for (auto& [name, rows] : brdf.table->examples()) {
+            for (double& number : rows)
+                number = double(static_cast<float>(number));
+            tables.push_back(std::move(rows));
+        }
+    return tables;
+}
+
 float randomValue(const Parameter& parameter, Pcg32& random) {
+    if (parameter.kind == ParameterKind::table) return 0.0f;
     if (parameter.kind == ParameterKind::choice)
         return static_cast<float>(random.below(static_cast<uint32_t>(parameter.choices.size())));
+    if (parameter.usual && random.below(4) != 0) {
+        const auto [low, high] = *parameter.usual;
+        return static_cast<float>(random.below(2) == 0 ? random.uniform(low, high)
+                                  : low > 0.0          ? random.logUniform(low, high)
+                                                       : random.logUniform(1e-6 * high, high));
+    }
     switch (random.below(6)) {
         case 0:
             return static_cast<float>(parameter.minimum);
@@ -35,8 +56,14 @@ std::vector<float> randomValues(const Brdf& brdf, Pcg32& random) {
     std::vector<float> values;
     for (const Parameter& parameter : brdf.parameters)
         for (int c = 0; c < parameter.components(); ++c)
-            values.push_back(std::min(randomValue(parameter, random), static_cast<float>(parameter.maximum)));
+            values.push_back(std::clamp(randomValue(parameter, random), static_cast<float>(parameter.minimum),
+                                        static_cast<float>(parameter.maximum)));
     return values;
+}
+
+int randomTable(const Brdf& brdf, Pcg32& random) {
+    return brdf.table ? static_cast<int>(random.below(static_cast<uint32_t>(exampleTables(brdf).size())))
+                      : -1;
 }
 
 glm::dvec3 anywhere(Pcg32& random) {
@@ -99,6 +126,32 @@ const std::vector<Kind>& kinds() {
     return list;
 }
 
+/// The examples one after the other as GLSL reads them, and where each starts.
+struct PackedTables {
+    std::vector<float> floats;
+    std::vector<int> firstRow;
+};
+
+PackedTables packTables(const Brdf& brdf) {
+    PackedTables packed;
+    if (!brdf.table) return packed;
+    for (const TableRows& rows : exampleTables(brdf)) {
+        packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
+        packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
+    }
+    return packed;
+}
+
+/// The row's values with the place of its table.
+void appendValues(const Brdf& brdf, const BrdfRow& row, const PackedTables& tables,
+                  std::vector<float>& inputs) {
+    const size_t start = inputs.size();
+    inputs.insert(inputs.end(), row.values.begin(), row.values.end());
+    if (row.table >= 0)
+        inputs[start + static_cast<size_t>(brdf.valueOffset(brdf.tableParameter()))] =
+            static_cast<float>(tables.firstRow[static_cast<size_t>(row.table)]);
+}
+
 std::string parameterConstructor(const Brdf& brdf) {
     std::string text = glslParameterType(brdf) + "(";
     for (const Parameter& parameter : brdf.parameters)
@@ -108,10 +161,7 @@ std::string parameterConstructor(const Brdf& brdf) {
 
 void addParameterInputs(const Brdf& brdf, std::vector<Variable>& inputs) {
     for (const Parameter& parameter : brdf.parameters) {
-        const char* type = parameter.kind == ParameterKind::rgb      ? "vec3"
-                           : parameter.kind == ParameterKind::choice ? "int"
-                                                                     : "float";
-        inputs.push_back({type, parameter.glslName});
+        inputs.push_back({glslType(parameter.kind), parameter.glslName});
     }
 }
 
@@ -121,7 +171,7 @@ Snippet localSnippet(const Brdf& brdf) {
     snippet.includes = {"brdf/" + brdf.name + ".glsl"};
     snippet.inputs = {{"vec3", "wi"}, {"vec3", "wo"}};
     addParameterInputs(brdf, snippet.inputs);
-    snippet.results = 2;
+    snippet.results = 3;
     snippet.body = "    " + glslParameterType(brdf) + " p = " + parameterConstructor(brdf) +
                    ";\n"
                    "    result[0].xyz = " +
@@ -129,6 +179,8 @@ Snippet localSnippet(const Brdf& brdf) {
                    "_f_cos(Dirs(wi, wo, wi + wo), p);\n"
                    "    result[1] = vec4(" +
                    brdf.name + "_ambient(p), " + brdf.name + "_roughness(p));";
+    if (brdf.mirror)
+        snippet.body += "\n    result[2].xyz = " + brdf.name + "_mirror(wo.z, dot(wo.xy, wo.xy), p);";
     return snippet;
 }
 
@@ -154,8 +206,8 @@ std::vector<BrdfRow> brdfRows(const Brdf& brdf, int perKind, uint64_t seed) {
     std::vector<BrdfRow> rows;
     for (const Kind& kind : kinds())
         for (int i = 0; i < perKind; ++i) {
-            BrdfRow row{kind.name, {}, {}, randomValues(brdf, random)};
-            const auto [wi, wo] = kind.directions(random, brdf.lobeSharpness(valuesOf(row)));
+            BrdfRow row{kind.name, {}, {}, randomValues(brdf, random), randomTable(brdf, random)};
+            const auto [wi, wo] = kind.directions(random, brdf.lobeSharpness(valuesOf(brdf, row)));
             row.wi = glm::vec3(wi);
             row.wo = glm::vec3(wo);
             rows.push_back(std::move(row));
@@ -174,42 +226,44 @@ std::vector<BrdfRow> hostileRows(const Brdf& brdf, uint64_t seed) {
     for (const glm::vec3& wi : directions)
         for (const glm::vec3& wo : directions)
             for (int i = 0; i < 24; ++i)
-                rows.push_back({"hostile", wi, wo, randomValues(brdf, random)});
+                rows.push_back({"hostile", wi, wo, randomValues(brdf, random), randomTable(brdf, random)});
     return rows;
 }
 
 BrdfEvaluator::BrdfEvaluator(const gl::ShaderLibrary& library, const Brdf& brdf)
-    : evaluator_(library, localSnippet(brdf)) {}
+    : brdf_(brdf), evaluator_(library, localSnippet(brdf)) {}
 
 std::vector<BrdfResult> BrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows) const {
+    const PackedTables tables = packTables(brdf_);
     std::vector<float> inputs;
     for (const BrdfRow& row : rows) {
         append(inputs, row.wi);
         append(inputs, row.wo);
-        inputs.insert(inputs.end(), row.values.begin(), row.values.end());
+        appendValues(brdf_, row, tables, inputs);
     }
-    const ResultTable table = evaluator_.evaluate(inputs);
+    const ResultTable table = evaluator_.evaluate(inputs, tables.floats);
     std::vector<BrdfResult> results;
     for (size_t i = 0; i < table.rows(); ++i) {
         const auto r = table.row(i);
-        results.push_back({{r[0], r[1], r[2]}, {r[4], r[5], r[6]}, r[7]});
+        results.push_back({{r[0], r[1], r[2]}, {r[4], r[5], r[6]}, r[7], {r[8], r[9], r[10]}});
     }
     return results;
 }
 
 WorldBrdfEvaluator::WorldBrdfEvaluator(const gl::ShaderLibrary& library, const Brdf& brdf)
-    : evaluator_(library, worldSnippet(brdf)) {}
+    : brdf_(brdf), evaluator_(library, worldSnippet(brdf)) {}
 
 std::vector<glm::vec3> WorldBrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows,
                                                     const std::vector<glm::vec3>& normals) const {
+    const PackedTables tables = packTables(brdf_);
     std::vector<float> inputs;
     for (size_t i = 0; i < rows.size(); ++i) {
         append(inputs, normals[i]);
         append(inputs, rows[i].wi);
         append(inputs, rows[i].wo);
-        inputs.insert(inputs.end(), rows[i].values.begin(), rows[i].values.end());
+        appendValues(brdf_, rows[i], tables, inputs);
     }
-    const ResultTable table = evaluator_.evaluate(inputs);
+    const ResultTable table = evaluator_.evaluate(inputs, tables.floats);
     std::vector<glm::vec3> results;
     for (size_t i = 0; i < table.rows(); ++i)
         results.emplace_back(table.row(i)[0], table.row(i)[1], table.row(i)[2]);
@@ -220,8 +274,13 @@ Directions directionsOf(const BrdfRow& row) {
     return {glm::normalize(glm::dvec3(row.wi)), glm::normalize(glm::dvec3(row.wo))};
 }
 
-ParameterValues valuesOf(const BrdfRow& row) {
-    return {row.values.begin(), row.values.end()};
+ParameterValues valuesOf(const Brdf& brdf, const BrdfRow& row) {
+    ParameterValues values(row.values.begin(), row.values.end());
+    if (row.table >= 0) {
+        const TableRows& rows = exampleTables(brdf)[static_cast<size_t>(row.table)];
+        values.insert(values.end(), rows.begin(), rows.end());
+    }
+    return values;
 }
 
 }  // namespace lobe::harness

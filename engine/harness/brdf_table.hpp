@@ -15,7 +15,8 @@ namespace lobe::harness {
 struct BrdfRow {
     std::string kind;           ///< "random", "grazing", ...
     glm::vec3 wi, wo;           ///< unit to float rounding
-    std::vector<float> values;  ///< in the order of ParameterValues
+    std::vector<float> values;  ///< in the order of ParameterValues, without the table
+    int table = -1;             ///< index into the tables of the model's examples
 };
 
 /// Configurations of every kind, `perKind` each, directions in the local frame: anywhere on the upper
@@ -32,6 +33,7 @@ std::vector<BrdfRow> hostileRows(const Brdf& brdf, uint64_t seed);
 struct BrdfResult {
     glm::vec3 fCos, ambient;
     float roughness;
+    glm::vec3 mirror;  ///< for wo's angle; 0 where the model has no such part
 };
 
 /// The GLSL of a model, with directions given in the local frame.
@@ -41,6 +43,7 @@ public:
     std::vector<BrdfResult> evaluate(const std::vector<BrdfRow>& rows) const;
 
 private:
+    const Brdf& brdf_;
     Evaluator evaluator_;
 };
 
@@ -52,11 +55,13 @@ public:
                                     const std::vector<glm::vec3>& normals) const;
 
 private:
+    const Brdf& brdf_;
     Evaluator evaluator_;
 };
 
 /// The directions that a row's floats stand for: normalised in double.
 Directions directionsOf(const BrdfRow& row);
-ParameterValues valuesOf(const BrdfRow& row);
+/// With the numbers of its table, which are rounded to floats as GLSL sees them.
+ParameterValues valuesOf(const Brdf& brdf, const BrdfRow& row);
 
 }  // namespace lobe::harness

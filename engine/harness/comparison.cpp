@@ -35,7 +35,7 @@ std::string describe(const BrdfRow& row) {
 }
 
 bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3& got) {
-    const ParameterValues values = valuesOf(row);
+    const ParameterValues values = valuesOf(brdf_, row);
     const glm::dvec3 exact = brdf_.fCos(d, values);
     const Condition condition = conditionOf(brdf_, d, values);
     const glm::dvec3 directions = axes_ == Axes::local ? condition.componentwise : condition.angular;

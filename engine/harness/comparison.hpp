@@ -1,7 +1,8 @@
 /// A model's GLSL against its double-precision twin, row by row.
 ///
-/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp). Rows whose allowance exceeds 10 % say nothing about
-/// the formula and only have to be finite and not negative; rows below 1e-38 have to stay below 1e-30.
+/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp). Rows
+/// whose allowance exceeds 10 % say nothing about the formula and only have to be finite and not negative;
+/// rows below 1e-38 have to stay below 1e-30.
 #pragma once
 
 #include <string>

@@ -89,7 +89,9 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
         for (int c = 0; c < parameter.components(); ++c, ++offset) {
             const double fromEnd =
                 std::min(values[offset] - parameter.minimum, parameter.maximum - values[offset]);
-            if (parameter.kind == ParameterKind::choice || fromEnd <= 0.0) continue;
+            if (parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::table ||
+                fromEnd <= 0.0)
+                continue;
             ParameterValues changed(values.begin(), values.end());
             condition.parameters += relativeSlope(
                 [&](double by) {

@@ -122,7 +122,7 @@ Evaluator::Evaluator(const gl::ShaderLibrary& library, Snippet snippet) : snippe
                            library.source(fragment, {}, generated), snippet_.name);
 }
 
-ResultTable Evaluator::evaluate(std::span<const float> inputs) const {
+ResultTable Evaluator::evaluate(std::span<const float> inputs, std::span<const float> brdfTable) const {
     const auto width = static_cast<size_t>(inputWidth(snippet_));
     const size_t rows = width == 0 ? 0 : inputs.size() / width;
     assert(rows * width == inputs.size());
@@ -146,6 +146,14 @@ ResultTable Evaluator::evaluate(std::span<const float> inputs) const {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, source.id());
     program_.set("uInputs", 0);
+    gl::TextureBuffer tableBuffer;
+    if (!brdfTable.empty()) {
+        tableBuffer = gl::makeTextureBuffer(GL_RGBA32F, brdfTable.data(), brdfTable.size_bytes());
+        glActiveTexture(GL_TEXTURE1);
+        glBindTexture(GL_TEXTURE_BUFFER, tableBuffer.texture.id());
+        glActiveTexture(GL_TEXTURE0);
+        program_.set("uBrdfTable", 1);
+    }
     drawInto(framebuffer, snippet_.results, height);
 
     std::vector<float> image(imageRows * kTableWidth * 4);

@@ -46,8 +46,9 @@ public:
     /// Throws ShaderError as gl::Program does; lines of the body are named "generated/NAME.frag".
     Evaluator(const gl::ShaderLibrary& library, Snippet snippet);
 
-    /// `inputs` holds rows of inputWidth() floats; every bit pattern arrives as it is.
-    ResultTable evaluate(std::span<const float> inputs) const;
+    /// `inputs` holds rows of inputWidth() floats; every bit pattern arrives as it is. `brdfTable` is what
+    /// common/table.glsl reads, four floats a row.
+    ResultTable evaluate(std::span<const float> inputs, std::span<const float> brdfTable = {}) const;
 
     const Snippet& snippet() const { return snippet_; }
 

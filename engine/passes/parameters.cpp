@@ -14,6 +14,7 @@ void setParameters(const gl::Program& program, const Brdf& brdf, std::span<const
                 program.set(name, static_cast<float>(values[offset]));
                 break;
             case ParameterKind::choice:
+            case ParameterKind::table:
                 program.set(name, static_cast<int>(values[offset]));
                 break;
         }

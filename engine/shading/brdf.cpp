@@ -34,7 +34,8 @@ std::string choicesText(const Parameter& parameter) {
 
 bool isValid(const Parameter& parameter, double value) {
     if (!(value >= parameter.minimum && value <= parameter.maximum)) return false;
-    return parameter.kind != ParameterKind::choice || value == std::floor(value);
+    const bool whole = parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::table;
+    return !whole || value == std::floor(value);
 }
 
 }  // namespace
@@ -44,6 +45,7 @@ const char* glslType(ParameterKind kind) {
         case ParameterKind::rgb:
             return "vec3";
         case ParameterKind::choice:
+        case ParameterKind::table:
             return "int";
         case ParameterKind::scalar:
             break;
@@ -73,7 +75,30 @@ ParameterValues Brdf::defaults() const {
     for (const Parameter& parameter : parameters)
         for (int c = 0; c < parameter.components(); ++c)
             values.push_back(parameter.defaultValue[c]);
+    if (table) {
+        const TableRows rows = table->examples().front().second;
+        values.insert(values.end(), rows.begin(), rows.end());
+    }
     return values;
+}
+
+int Brdf::tableParameter() const {
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [](const Parameter& p) { return p.kind == ParameterKind::table; });
+    return found == parameters.end() ? -1 : static_cast<int>(found - parameters.begin());
+}
+
+std::span<const double> Brdf::tableOf(std::span<const double> values) const {
+    return values.subspan(static_cast<size_t>(valueCount()));
+}
+
+std::string layoutError(const Brdf& brdf, std::span<const double> values) {
+    const auto count = static_cast<size_t>(brdf.valueCount());
+    const bool fits =
+        brdf.table ? values.size() > count && (values.size() - count) % 4 == 0 : values.size() == count;
+    if (fits) return {};
+    return std::to_string(values.size()) + " values; expected " + std::to_string(count) +
+           (brdf.table ? " and a table of rows of 4" : "");
 }
 
 const std::vector<Brdf>& allBrdfs() {
@@ -111,9 +136,8 @@ const Brdf& requireBrdf(std::string_view name) {
 }
 
 void validateParameters(const Brdf& brdf, std::span<const double> values, const std::string& where) {
-    if (values.size() != static_cast<size_t>(brdf.valueCount()))
-        throw InputError(where + ": " + brdf.name + ": " + std::to_string(values.size()) +
-                         " values; expected " + std::to_string(brdf.valueCount()));
+    if (const std::string wrong = layoutError(brdf, values); !wrong.empty())
+        throw InputError(where + ": " + brdf.name + ": " + wrong);
     size_t offset = 0;
     for (const Parameter& parameter : brdf.parameters) {
         for (int c = 0; c < parameter.components(); ++c, ++offset) {

@@ -4,18 +4,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lobe {
 
-/// A number or an RGB triple (or a choice among named variants, stored as its index).
-enum class ParameterKind : uint8_t { scalar, rgb, choice };
+/// A number, an RGB triple, a choice among named variants (stored as its index), or a table (stored as the
+/// place of its first row in the buffer that GLSL reads tables from).
+enum class ParameterKind : uint8_t { scalar, rgb, choice, table };
 
 struct Parameter {
     std::string name;      ///< as in glTF (LOBE_materials_brdf), lowerCamelCase: "diffuse", "shininess"
@@ -29,12 +32,33 @@ struct Parameter {
     bool textureIsSrgb = false;  ///< colour-coded texture (diffuse, specular, base colour)
     bool mayBeTextured = true;
     std::vector<std::string> choices;  ///< for ParameterKind::choice
+    /// Object of the scene format that holds the parameter: "fresnel", whose "type" is the group's choice.
+    std::string group;
+    /// The part of the range that surfaces use, where the range itself is far wider; tests and plots sample
+    /// it.
+    std::optional<std::pair<double, double>> usual;
 
     int components() const { return kind == ParameterKind::rgb ? 3 : 1; }
 };
 
-/// A model's parameters in one flat array of doubles, in the order of Brdf::parameters, rgb as three.
+/// A model's parameters in one flat array of doubles, in the order of Brdf::parameters, rgb as three. Where
+/// the model has a table, its numbers follow.
 using ParameterValues = std::vector<double>;
+
+/// Rows of four numbers that a model reads beside its parameters.
+using TableRows = std::vector<double>;
+
+/// How a model's table is written in files. One of `columns` and `fromFile` is given.
+struct TableFormat {
+    std::vector<std::string> columns;  ///< of an array of objects, each rgb: "cx", "cy", "cz", "n"
+    /// From those columns, rgb of column c of element i at 3 (i * columns.size() + c). Throws InputError
+    /// whose text starts with the property: "lobes[2].n: ...".
+    std::function<TableRows(std::span<const double>)> fromColumns;
+    /// From the bytes of a file. Throws InputError that says what is wrong with it.
+    std::function<TableRows(std::span<const std::byte>)> fromFile;
+    /// Tables that tests and documentation use, with names.
+    std::function<std::vector<std::pair<std::string, TableRows>>()> examples;
+};
 
 /// The glTF description of a surface, from which each model can be set up when it is chosen for a whole
 /// scene.
@@ -58,7 +82,7 @@ struct BrdfTraits {
     bool reciprocal = true;
     bool energyConserving = true;  ///< directional albedo at most 1 over the whole parameter range
     bool usesTangent = false;      ///< anisotropic: needs the frame's x axis
-    bool scattersLight = true;     ///< false: takes no light at all (unlit)
+    bool scattersLight = true;     ///< false: shows no light without extent (ideal mirrors)
 };
 
 /// One reflectance model.
@@ -67,6 +91,7 @@ struct Brdf {
     std::string title;   ///< for people: "Blinn-Phong"
     std::string source;  ///< paper
     std::vector<Parameter> parameters;
+    std::optional<TableFormat> table;
     BrdfTraits traits;
 
     /// f_r(wi, wo) * cos(theta_i), in 1/sr, in double, from the paper's formula: the twin of NAME_f_cos in
@@ -75,6 +100,10 @@ struct Brdf {
 
     /// The factor k_a that multiplies LOBE_ambient's radiance: the twin of NAME_ambient in GLSL.
     std::function<glm::dvec3(std::span<const double>)> ambient;
+
+    /// Reflectance into the mirrored direction, which no light without extent shows, for cos(theta): the twin
+    /// of NAME_mirror in GLSL. Absent where the model has no such part.
+    std::function<glm::dvec3(double, std::span<const double>)> mirror;
 
     /// Width of the sharpest lobe that these values give, as the largest |d ln f / d theta_h| in 1/rad
     /// (algorithms: 2/alpha for GGX, sqrt(n) for Blinn-Phong, 2 sqrt(n) for Phong, 0 for Lambert).
@@ -89,8 +118,11 @@ struct Brdf {
 
     int parameterIndex(std::string_view parameterName) const;  ///< -1 if there is none
     int valueOffset(int parameterIndex) const;                 ///< of its first double in ParameterValues
-    int valueCount() const;
+    int valueCount() const;                                    ///< without the table
     ParameterValues defaults() const;
+    int tableParameter() const;  ///< index of the parameter of kind table, -1 if there is none
+    /// The table's numbers at the end of `values`, four a row.
+    std::span<const double> tableOf(std::span<const double> values) const;
 };
 
 /// All models, sorted by name. References stay valid for the program's life.
@@ -102,6 +134,9 @@ const Brdf& requireBrdf(std::string_view name);
 
 /// Throws InputError "WHERE: PARAMETER: VALUE; expected MIN..MAX" if a value is out of range or not finite.
 void validateParameters(const Brdf& brdf, std::span<const double> values, const std::string& where);
+
+/// `values` is too short or has a table of a wrong length: what is wrong, else empty.
+std::string layoutError(const Brdf& brdf, std::span<const double> values);
 
 /// "vec3", "float" or "int".
 const char* glslType(ParameterKind kind);

@@ -54,6 +54,14 @@ Parameter choiceParameter(std::string name, std::vector<std::string> choices, st
     return parameter;
 }
 
+Parameter tableParameter(std::string name, std::string description) {
+    // Places are kept in floats, which count exactly to 2^24.
+    Parameter parameter =
+        makeParameter(std::move(name), ParameterKind::table, glm::dvec3(0.0), 0x1p24, std::move(description));
+    parameter.mayBeTextured = false;
+    return parameter;
+}
+
 glm::dvec3 rgbAt(std::span<const double> values, size_t offset) {
     return {values[offset], values[offset + 1], values[offset + 2]};
 }

@@ -16,6 +16,9 @@ Parameter choiceParameter(std::string name, std::vector<std::string> choices, st
 /// An rgb parameter whose texture is sRGB encoded.
 Parameter colorParameter(std::string name, const glm::dvec3& defaultValue, std::string description);
 
+/// Place of the model's table; `name` is that of the scene format's property: "lobes", "file".
+Parameter tableParameter(std::string name, std::string description);
+
 /// Three values from `offset` on.
 glm::dvec3 rgbAt(std::span<const double> values, size_t offset);
 

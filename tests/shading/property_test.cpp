@@ -1,6 +1,7 @@
 /// What the models claim of themselves: reciprocity, energy, continuity, sharpness. On the twins, in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <optional>
@@ -44,10 +45,14 @@ std::vector<ParameterValues> parameterGrid(const Brdf& brdf) {
     for (const Parameter& parameter : brdf.parameters) {
         std::vector<double> steps{parameter.minimum, 0.5 * (parameter.minimum + parameter.maximum),
                                   parameter.maximum};
-        if (parameter.kind == ParameterKind::choice) {
+        if (parameter.kind == ParameterKind::table) {
+            steps = {0.0};
+        } else if (parameter.kind == ParameterKind::choice) {
             steps.clear();
             for (size_t i = 0; i < parameter.choices.size(); ++i)
                 steps.push_back(static_cast<double>(i));
+        } else if (parameter.usual) {
+            steps = {parameter.usual->first, parameter.usual->second};
         } else if (parameter.maximum - parameter.minimum > 100.0) {
             steps = {parameter.minimum, 1.0, 10.0, 1000.0};
         } else if (parameter.kind == ParameterKind::scalar) {
@@ -61,6 +66,16 @@ std::vector<ParameterValues> parameterGrid(const Brdf& brdf) {
             }
         grid = std::move(longer);
     }
+    if (brdf.table) {
+        std::vector<ParameterValues> longer;
+        for (const ParameterValues& values : grid)
+            for (const auto& [name, rows] : brdf.table->examples()) {
+                longer.push_back(values);
+                longer.back().insert(longer.back().end(), rows.begin(), rows.end());
+            }
+        grid = std::move(longer);
+    }
+    std::reverse(grid.begin(), grid.end());  // the brightest first: where albedo exceeds 1, it does so here
     return grid;
 }
 
@@ -84,7 +99,7 @@ double worstAsymmetry(const Brdf& brdf) {
     double worst = 0.0;
     for (const harness::BrdfRow& row : harness::brdfRows(brdf, 500, 7)) {
         const Directions d = harness::directionsOf(row);
-        const ParameterValues values = harness::valuesOf(row);
+        const ParameterValues values = harness::valuesOf(brdf, row);
         const double there = brdf.fCos(d, values).r / d.wi.z;
         const double back = brdf.fCos({d.wo, d.wi}, values).r / d.wo.z;
         if (there + back > 0.0) worst = std::max(worst, std::abs(there - back) / (there + back));
@@ -134,7 +149,7 @@ TEST(Phong, EnergyFormIsReciprocalAndConserving) {
         }
         for (const harness::BrdfRow& row : harness::brdfRows(brdf, 200, 8)) {
             const Directions d = harness::directionsOf(row);
-            ParameterValues values = harness::valuesOf(row);
+            ParameterValues values = harness::valuesOf(brdf, row);
             values[10] = 1.0;
             const double there = brdf.fCos(d, values).r / d.wi.z;
             const double back = brdf.fCos({d.wo, d.wi}, values).r / d.wo.z;

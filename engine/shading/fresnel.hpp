@@ -1,0 +1,24 @@
+/// Reflectance of a smooth interface for unpolarised light, and the four parameters by which models name it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shading/parameters.hpp"
+
+namespace lobe::shading {
+
+enum class FresnelType : uint8_t { schlick, dielectric, conductor };
+
+/// Parameters `fresnel` (the type), `f0`, `eta`, `k`: the scene format's object "fresnel".
+std::vector<Parameter> fresnelParameters();
+inline constexpr size_t kFresnelValues = 10;
+
+/// Reflectance at cos(theta) in 0..1 for the ten values of fresnelParameters(). Exact equations (Born and
+/// Wolf, Principles of Optics) with complex index eta + i k; Schlick, Computer Graphics Forum 13(3), 1994.
+glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta);
+
+/// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
+std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);
+
+}  // namespace lobe::shading

@@ -1,0 +1,47 @@
+#include "shading/microfacet.hpp"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace lobe::shading {
+
+std::vector<Parameter> microfacetParameters(std::vector<Parameter> lobe) {
+    std::vector<Parameter> parameters{colorParameter("diffuse", glm::dvec3(0.0), "k_d: diffuse reflectance"),
+                                      colorParameter("specular", glm::dvec3(1.0), "k_s: scale of the lobe")};
+    parameters.insert(parameters.end(), lobe.begin(), lobe.end());
+    for (Parameter& parameter : fresnelParameters())
+        parameters.push_back(std::move(parameter));
+    return parameters;
+}
+
+glm::dvec3 microfacetFCos(const Directions& d, std::span<const double> values, double lobe) {
+    const double vh = 0.5 * glm::length(d.h);  // cos of half the angle between unit vectors
+    const glm::dvec3 fresnel = fresnelReflectance(values.last(kFresnelValues), vh);
+    return (rgbAt(values, 0) / glm::pi<double>() + rgbAt(values, 3) * fresnel * lobe) * d.wi.z;
+}
+
+glm::dvec3 microfacetAmbient(std::span<const double> values) {
+    return rgbAt(values, 0) + rgbAt(values, 3) * fresnelReflectance(values.last(kFresnelValues), 1.0);
+}
+
+ParameterValues microfacetFromMetallicRoughness(const MetallicRoughness& surface,
+                                                const std::vector<double>& lobe) {
+    const glm::dvec3 diffuse = surface.baseColor * (1.0 - surface.metallic) * (1.0 - kDielectricF0);
+    ParameterValues values{diffuse.r, diffuse.g, diffuse.b, 1.0, 1.0, 1.0};
+    values.insert(values.end(), lobe.begin(), lobe.end());
+    const std::vector<double> fresnel = fresnelFromMetallicRoughness(surface);
+    values.insert(values.end(), fresnel.begin(), fresnel.end());
+    return values;
+}
+
+bool hasSpecular(std::span<const double> values) {
+    return values[3] > 0.0 || values[4] > 0.0 || values[5] > 0.0;
+}
+
+double beckmann(const glm::dvec3& h, double m) {
+    const double cos2 = h.z * h.z;
+    const double tan2 = (h.x * h.x + h.y * h.y) / cos2;
+    return std::exp(-tan2 / (m * m)) / (glm::pi<double>() * m * m * cos2 * cos2);
+}
+
+}  // namespace lobe::shading

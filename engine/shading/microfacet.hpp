@@ -1,0 +1,30 @@
+/// What the microfacet models' registry entries have in common: k_d, k_s, and a lobe that Fresnel's equations
+/// weight.
+#pragma once
+
+#include "shading/fresnel.hpp"
+
+namespace lobe::shading {
+
+/// `diffuse`, `specular`, then the lobe's own, then those of fresnelParameters().
+std::vector<Parameter> microfacetParameters(std::vector<Parameter> lobe);
+
+/// k_d / pi + k_s F lobe for `lobe` = D G / (4 cos cos), times cos(theta_i).
+glm::dvec3 microfacetFCos(const Directions& d, std::span<const double> values, double lobe);
+
+/// k_d + k_s F at normal incidence.
+glm::dvec3 microfacetAmbient(std::span<const double> values);
+
+/// k_d = 0.96 (1 - metallic) base colour, k_s = 1, Schlick's F with glTF's normal reflectance; `lobe` has the
+/// values of the lobe's own parameters.
+ParameterValues microfacetFromMetallicRoughness(const MetallicRoughness& surface,
+                                                const std::vector<double>& lobe);
+
+/// Whether any channel of k_s is above 0.
+bool hasSpecular(std::span<const double> values);
+
+/// Beckmann's distribution, D (N.H) of integral 1 over the hemisphere, for the unit half vector in the local
+/// frame.
+double beckmann(const glm::dvec3& h, double m);
+
+}  // namespace lobe::shading
