@@ -75,11 +75,12 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
     };
     condition.angular = gradientLength(light(0), light(1)) + gradientLength(eye(0), eye(1));
 
-    for (const glm::dvec3& w : {d.wi, d.wo})
+    for (const bool ofLight : {true, false})
         condition.length += relativeSlope(
             [&](double by) {
                 Directions stretched = d;
-                stretched.h += by * w;
+                stretched.h += by * (ofLight ? d.wi : d.wo);
+                if (!brdf.traits.anglesOnly) (ofLight ? stretched.wi : stretched.wo) *= 1.0 + by;
                 return brdf.fCos(stretched, values);
             },
             kStep, f);

@@ -81,8 +81,11 @@ struct Directions {
 struct BrdfTraits {
     bool reciprocal = true;
     bool energyConserving = true;  ///< directional albedo at most 1 over the whole parameter range
-    bool usesTangent = false;      ///< anisotropic: needs the frame's x axis
-    bool scattersLight = true;     ///< false: shows no light without extent (ideal mirrors)
+    /// The formula sees angles only. False where it multiplies components of both directions as they are, so
+    /// that lengths that are 1 only to rounding count.
+    bool anglesOnly = true;
+    bool usesTangent = false;   ///< anisotropic: needs the frame's x axis
+    bool scattersLight = true;  ///< false: shows no light without extent (ideal mirrors)
 };
 
 /// One reflectance model.

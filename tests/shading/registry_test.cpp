@@ -86,7 +86,8 @@ TEST(Registry, EveryEntryIsComplete) {
             EXPECT_EQ(parameter.kind == ParameterKind::choice, !parameter.choices.empty());
             EXPECT_FALSE(parameter.kind == ParameterKind::choice && parameter.mayBeTextured);
         }
-        EXPECT_EQ(brdf.defaults().size(), static_cast<size_t>(brdf.valueCount()));
+        EXPECT_EQ(layoutError(brdf, brdf.defaults()), "");
+        EXPECT_EQ(brdf.table.has_value(), brdf.tableParameter() >= 0);
         EXPECT_NO_THROW(validateParameters(brdf, brdf.defaults(), "defaults"));
     }
 }

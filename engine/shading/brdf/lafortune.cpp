@@ -1,0 +1,144 @@
+/// Sums of generalised cosine lobes.
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "shading/lafortune_fits.hpp"
+#include "shading/phong_family.hpp"
+
+namespace lobe::brdf_entry {
+namespace {
+
+using shading::LafortuneLobe;
+using shading::rgbAt;
+
+constexpr size_t kRowsPerLobe = 4;
+constexpr double kLargestLobe = 1e30;
+
+TableRows rowsOf(const std::vector<LafortuneLobe>& lobes) {
+    TableRows rows{static_cast<double>(lobes.size()), 0.0, 0.0, 0.0};
+    for (const LafortuneLobe& lobe : lobes)
+        for (const glm::dvec3& coefficient : {lobe.cx, lobe.cy, lobe.cz, lobe.n})
+            rows.insert(rows.end(), {coefficient.r, coefficient.g, coefficient.b, 0.0});
+    return rows;
+}
+
+std::vector<LafortuneLobe> lobesOf(std::span<const double> table) {
+    std::vector<LafortuneLobe> lobes(static_cast<size_t>(table[0]));
+    for (size_t i = 0; i < lobes.size(); ++i) {
+        const size_t first = 4 * (1 + kRowsPerLobe * i);
+        lobes[i] = {rgbAt(table, first), rgbAt(table, first + 4), rgbAt(table, first + 8),
+                    rgbAt(table, first + 12)};
+    }
+    return lobes;
+}
+
+std::string textOf(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+/// Refuses exponents that are not positive and lobes too bright for floats.
+TableRows rowsOfColumns(std::span<const double> columns) {
+    std::vector<LafortuneLobe> lobes(columns.size() / 12);
+    for (size_t i = 0; i < lobes.size(); ++i) {
+        LafortuneLobe& lobe = lobes[i];
+        lobe = {rgbAt(columns, 12 * i), rgbAt(columns, 12 * i + 3), rgbAt(columns, 12 * i + 6),
+                rgbAt(columns, 12 * i + 9)};
+        const std::string property = "lobes[" + std::to_string(i) + "]";
+        for (int c = 0; c < 3; ++c) {
+            const double n = lobe.n[c];
+            if (!(n > 0.0 && n <= 1e6))
+                throw InputError(property + ".n: " + textOf(n) + "; expected above 0, at most 1e6");
+            const double largest =
+                std::max({std::abs(lobe.cx[c]), std::abs(lobe.cy[c]), std::abs(lobe.cz[c])});
+            if (!(n * std::log(largest) <= std::log(kLargestLobe)))
+                throw InputError(property + ": " + textOf(largest) + " to the power " + textOf(n) +
+                                 "; expected at most 1e30");
+        }
+    }
+    return rowsOf(lobes);
+}
+
+glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
+    if (!shading::aboveSurface(d)) return glm::dvec3(0.0);
+    glm::dvec3 f = rgbAt(values, 0) / glm::pi<double>();
+    const std::span<const double> table = values.subspan(4);
+    const auto count = static_cast<size_t>(table[0]);
+    for (size_t i = 0; i < count; ++i) {
+        const size_t first = 4 * (1 + kRowsPerLobe * i);
+        for (size_t c = 0; c < 3; ++c) {
+            const double s = table[first + c] * d.wi.x * d.wo.x + table[first + 4 + c] * d.wi.y * d.wo.y +
+                             table[first + 8 + c] * d.wi.z * d.wo.z;
+            f[static_cast<int>(c)] += std::pow(std::max(s, 0.0), table[first + 12 + c]);
+        }
+    }
+    return f * d.wi.z;
+}
+
+double sharpness(std::span<const double> values) {
+    double n = 0.0;
+    for (const LafortuneLobe& lobe : lobesOf(values.subspan(4)))
+        n = std::max({n, lobe.n.r, lobe.n.g, lobe.n.b});
+    return 2.0 * std::sqrt(n);
+}
+
+/// A diffuse part as Phong's, and one lobe about the mirrored direction: normalised Phong of exponent n.
+ParameterValues fromMetallicRoughness(const MetallicRoughness& surface) {
+    const glm::dvec3 diffuse = surface.baseColor * (1.0 - surface.metallic) * (1.0 - shading::kDielectricF0);
+    const glm::dvec3 specular =
+        glm::mix(glm::dvec3(shading::kDielectricF0), surface.baseColor, surface.metallic);
+    const double n = std::clamp(shading::blinnExponent(surface.roughness) / 4.0, 0.1, 1e4);
+    glm::dvec3 c;
+    for (int k = 0; k < 3; ++k)
+        c[k] = std::pow(std::max(specular[k], 1e-6) * (n + 2.0) / (2.0 * glm::pi<double>()), 1.0 / n);
+    ParameterValues values{diffuse.r, diffuse.g, diffuse.b, 0.0};
+    const TableRows rows = rowsOf({{-c, -c, c, glm::dvec3(n)}});
+    values.insert(values.end(), rows.begin(), rows.end());
+    return values;
+}
+
+}  // namespace
+
+Brdf lafortune() {
+    using namespace shading;
+    Brdf brdf;
+    brdf.name = "lafortune";
+    brdf.title = "Lafortune";
+    brdf.source =
+        "E. P. F. Lafortune et al., Non-linear approximation of reflectance functions, SIGGRAPH 1997";
+    brdf.parameters = {
+        colorParameter("diffuse", glm::dvec3(0.0), "k_d: diffuse reflectance"),
+        tableParameter("lobes", "lobes, each with cx, cy, cz and n per channel; or the name of a fit")};
+    TableFormat format;
+    format.columns = {"cx", "cy", "cz", "n"};
+    format.fromColumns = rowsOfColumns;
+    format.examples = [] {
+        std::vector<std::pair<std::string, TableRows>> examples;
+        for (const LafortuneFit& fit : lafortuneFits())
+            examples.emplace_back(fit.name, rowsOf(fit.lobes));
+        // Anisotropic, and as sharp as the steel that Ngan et al. (EGSR 2005) fitted.
+        examples.emplace_back("anisotropic",
+                              rowsOf({{glm::dvec3(-1.0, -0.9, -0.5), glm::dvec3(-0.8, 0.9, -1.0),
+                                       glm::dvec3(1.0, 0.95, 0.7), glm::dvec3(30.0, 8.0, 0.5)}}));
+        examples.emplace_back(
+            "steel", rowsOf({{glm::dvec3(-1.0), glm::dvec3(-1.0), glm::dvec3(1.0), glm::dvec3(10200.0)}}));
+        return examples;
+    };
+    brdf.table = std::move(format);
+    // Fits are made to measurements, not to a bound: brushed metal reaches albedo 1.56.
+    brdf.traits.energyConserving = false;
+    brdf.traits.anglesOnly = false;
+    brdf.traits.usesTangent = true;
+    brdf.baseColorParameter = "diffuse";
+    brdf.fCos = fCos;
+    brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
+    brdf.lobeSharpness = sharpness;
+    brdf.fromMetallicRoughness = fromMetallicRoughness;
+    return brdf;
+}
+
+}  // namespace lobe::brdf_entry
