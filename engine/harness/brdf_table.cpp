@@ -31,7 +31,7 @@ float randomValue(const Parameter& parameter, Pcg32& random) {
     if (parameter.kind == ParameterKind::table) return 0.0f;
     if (parameter.kind == ParameterKind::choice)
         return static_cast<float>(random.below(static_cast<uint32_t>(parameter.choices.size())));
-    if (parameter.usual && random.below(4) != 0) {
+    if (parameter.usual && random.below(16) != 0) {
         const auto [low, high] = *parameter.usual;
         return static_cast<float>(random.below(2) == 0 ? random.uniform(low, high)
                                   : low > 0.0          ? random.logUniform(low, high)

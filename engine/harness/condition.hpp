@@ -16,8 +16,8 @@ struct Condition {
     /// (|grad_wi f| + |grad_wo f|) / f per radian: what rounding of directions in other axes costs.
     glm::dvec3 angular{0.0};
     /// sum over both directions of |df/de| / f, e the departure of its length from 1, of which the half
-    /// vector takes part, and the direction itself where the model says so (BrdfTraits::anglesOnly): what unit
-    /// vectors that are unit only to float rounding cost.
+    /// vector takes part, and the direction itself where the model says so (BrdfTraits::anglesOnly): what
+    /// unit vectors that are unit only to float rounding cost.
     glm::dvec3 length{0.0};
     /// sum over the parameters p of |q df/dp| / f, q the distance of p from the nearer end of its range: 1 -
     /// p is exact in floats where p is near 1.

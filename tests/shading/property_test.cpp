@@ -102,7 +102,7 @@ double worstAsymmetry(const Brdf& brdf) {
         const ParameterValues values = harness::valuesOf(brdf, row);
         const double there = brdf.fCos(d, values).r / d.wi.z;
         const double back = brdf.fCos({d.wo, d.wi}, values).r / d.wo.z;
-        if (there + back > 0.0) worst = std::max(worst, std::abs(there - back) / (there + back));
+        if (there + back > 1e-290) worst = std::max(worst, std::abs(there - back) / (there + back));
     }
     return worst;
 }
