@@ -45,6 +45,7 @@ std::string Setting::valueName() const {
         case SettingType::choice:
             break;
     }
+    if (choices == brdfNames()) return "MODEL";  // as many as there are, and more with each version
     std::string names;
     for (const std::string& choice : choices)
         names += (names.empty() ? "" : "|") + choice;
@@ -147,7 +148,7 @@ const std::vector<Setting>& settingTable() {
          "missing normals: flat as glTF says, or averaged (smooth); flat: always flat",
          "Scene",
          {"file", "smooth", "flat"}},
-        {"brdf", choice, nullptr, "shading model for all materials; default each material's own", "Scene",
+        {"brdf", choice, nullptr, "shading model for all materials, one of those in docs/models; default each material's own", "Scene",
          brdfNames()},
 
         {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",

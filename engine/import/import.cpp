@@ -14,6 +14,7 @@
 #include "import/source_mesh.hpp"
 #include "import/tangents.hpp"
 #include "import/textures.hpp"
+#include "scene/brdf_tables.hpp"
 
 namespace lobe {
 
@@ -56,6 +57,7 @@ public:
         scene.cameras = readCameras(document_, tree_, world_);
         readAmbient();
         warnOfRepairs();
+        placeTables(scene.materials);
         scene.contentHash = document_.hash.hex();
         scene.warnings = document_.allWarnings();
         return std::move(result_);

@@ -6,6 +6,8 @@
 #include "base/error.hpp"
 #include "import/materials.hpp"
 #include "import/refuse.hpp"
+#include "import/uri.hpp"
+#include "shading/metals.hpp"
 
 namespace lobe {
 
@@ -14,6 +16,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kTextureSuffix = "Texture";
+constexpr const char* kFresnelGroup = "fresnel";
 
 std::string joined(const std::vector<std::string>& names) {
     std::string all;
@@ -42,10 +45,31 @@ public:
     }
 
 private:
+    bool isGroup(const std::string& key) const {
+        return std::any_of(brdf_.parameters.begin(), brdf_.parameters.end(),
+                           [&](const Parameter& parameter) { return parameter.group == key; });
+    }
+
     void readProperty(const std::string& key, const json& value) {
+        if (isGroup(key)) {
+            readGroup(key, value);
+            return;
+        }
+        readMember(key, value, "");
+    }
+
+    /// A parameter, or its texture, of the group of that name.
+    void readMember(const std::string& key, const json& value, const std::string& group) {
+        const auto own = [&](int index) {
+            return index >= 0 && brdf_.parameters[static_cast<size_t>(index)].group == group;
+        };
         const int parameter = brdf_.parameterIndex(key);
-        if (parameter >= 0) {
-            readValue(static_cast<size_t>(parameter), value);
+        if (own(parameter)) {
+            if (brdf_.parameters[static_cast<size_t>(parameter)].kind == ParameterKind::table) {
+                readTable(value, property_ + "." + key);
+            } else {
+                readValue(static_cast<size_t>(parameter), value, group);
+            }
             return;
         }
         const std::string suffix = kTextureSuffix;
@@ -53,19 +77,190 @@ private:
             key.ends_with(suffix)
                 ? brdf_.parameterIndex(std::string_view(key).substr(0, key.size() - suffix.size()))
                 : -1;
-        if (textured >= 0 && brdf_.parameters[static_cast<size_t>(textured)].mayBeTextured) {
+        if (own(textured) && brdf_.parameters[static_cast<size_t>(textured)].mayBeTextured) {
             readTexture(static_cast<size_t>(textured), key, value);
             return;
         }
-        const std::vector<std::string> names = knownNames();
-        refuse(document_.file, property_ + "." + key, shown(value),
+        const std::vector<std::string> names = knownNames(group);
+        refuse(document_.file, property_ + (group.empty() ? "." : "." + group + ".") + key, shown(value),
                "one of " + joined(names) + didYouMean(key, names));
     }
 
-    std::vector<std::string> knownNames() const {
+    /// An object whose "type" is the group's choice and whose other members are parameters; of type "metal"
+    /// and with "name" it stands for optical constants by name.
+    void readGroup(const std::string& group, const json& value) {
+        const std::string property = property_ + "." + group;
+        if (!value.is_object()) {
+            refuse(document_.file, property, shown(value), "an object with a type");
+        }
+        if (!value.contains("type")) {
+            refuse(document_.file, property + ".type", "missing", "one of " + joined(groupTypes(group)));
+        }
+        const bool named = value.contains("name");
+        const json type = value["type"];
+        if (group == kFresnelGroup && (named || type == "metal")) {
+            readNamedConstants(value, property);
+        } else {
+            readValue(static_cast<size_t>(brdf_.parameterIndex(group)), type, group);
+        }
+        for (const auto& [key, member] : value.items()) {
+            if (key != "type" && key != "name" && key != "extras" && key != "extensions") {
+                readMember(key, member, group);
+            }
+        }
+    }
+
+    std::vector<std::string> groupTypes(const std::string& group) const {
+        std::vector<std::string> types =
+            brdf_.parameters[static_cast<size_t>(brdf_.parameterIndex(group))].choices;
+        if (group == kFresnelGroup) {
+            types.emplace_back("metal");
+        }
+        return types;
+    }
+
+    void setRgb(const char* parameter, const glm::dvec3& rgb) {
+        double* out = material_.values.data() + brdf_.valueOffset(brdf_.parameterIndex(parameter));
+        for (int c = 0; c < 3; ++c) {
+            out[c] = rgb[c];
+        }
+    }
+
+    void setChoice(const char* parameter, const std::string& choice) {
+        const int index = brdf_.parameterIndex(parameter);
+        const auto& choices = brdf_.parameters[static_cast<size_t>(index)].choices;
+        material_.values[static_cast<size_t>(brdf_.valueOffset(index))] =
+            static_cast<double>(std::find(choices.begin(), choices.end(), choice) - choices.begin());
+    }
+
+    /// {"type": "metal", "name": ...}: complex indices; {"type": "schlick", "name": ...}: reflectances.
+    void readNamedConstants(const json& value, const std::string& property) {
+        const std::string type = value["type"].is_string() ? value["type"].get<std::string>() : "";
+        const json name = value.value("name", json());
+        const auto find = [&](const auto& table) {
+            std::vector<std::string> names;
+            for (const auto& entry : table) {
+                if (name == entry.name) {
+                    return entry;
+                }
+                names.push_back(entry.name);
+            }
+            const std::string given = name.is_string() ? name.get<std::string>() : "";
+            refuse(document_.file, property + ".name", name.is_null() ? "missing" : shown(name),
+                   "one of " + joined(names) + didYouMean(given, names));
+        };
+        if (type == "metal") {
+            const shading::Metal metal = find(shading::metals());
+            setChoice("fresnel", "conductor");
+            setRgb("eta", metal.eta);
+            setRgb("k", metal.k);
+        } else if (type == "schlick") {
+            setChoice("fresnel", "schlick");
+            setRgb("f0", find(shading::namedReflectances()).f0);
+        } else {
+            refuse(document_.file, property + ".type", shown(value["type"]),
+                   "metal or schlick beside a name");
+        }
+    }
+
+    /// The model's table: an array of objects, the name of one that comes with Lobe, or a file beside the
+    /// scene.
+    void readTable(const json& value, const std::string& property) {
+        const TableFormat& format = *brdf_.table;
+        TableRows rows;
+        if (format.fromFile) {
+            rows = tableFile(value, property);
+        } else if (value.is_string()) {
+            rows = namedTable(value.get<std::string>(), property);
+        } else {
+            rows = tableColumns(value, property);
+        }
+        material_.values.resize(static_cast<size_t>(brdf_.valueCount()));
+        material_.values.insert(material_.values.end(), rows.begin(), rows.end());
+    }
+
+    TableRows tableFile(const json& value, const std::string& property) {
+        if (!value.is_string()) {
+            refuse(document_.file, property, shown(value), "the name of a file beside the scene");
+        }
+        const auto uri = value.get<std::string>();
+        const std::vector<std::byte> bytes = readReferencedFile(
+            resolveUri(uri, document_.folder, document_.file, property), uri, document_.file, property);
+        document_.hash.add(bytes);
+        try {
+            return brdf_.table->fromFile(bytes);
+        } catch (const InputError& error) {
+            throw InputError(document_.file + ": " + property + ": " + uri + ": " + error.what());
+        }
+    }
+
+    TableRows namedTable(const std::string& name, const std::string& property) const {
+        std::vector<std::string> names;
+        for (auto& [known, rows] : brdf_.table->examples()) {
+            if (known == name) {
+                return rows;
+            }
+            names.push_back(known);
+        }
+        refuse(document_.file, property, "'" + name + "'",
+               "an array of objects or one of " + joined(names) + didYouMean(name, names));
+    }
+
+    TableRows tableColumns(const json& value, const std::string& property) const {
+        constexpr size_t kMostElements = 4096;
+        if (!value.is_array() || value.empty() || value.size() > kMostElements) {
+            refuse(document_.file, property, shown(value),
+                   "an array of 1 to " + std::to_string(kMostElements) + " objects with " +
+                       joined(brdf_.table->columns));
+        }
+        std::vector<double> columns;
+        for (size_t i = 0; i < value.size(); ++i) {
+            for (const std::string& column : brdf_.table->columns) {
+                const std::string place = at(property, i, column);
+                if (!value[i].is_object() || !value[i].contains(column)) {
+                    refuse(document_.file, place, "missing", "a number or three");
+                }
+                const glm::dvec3 rgb = rgbOf(value[i][column], place, true);
+                columns.insert(columns.end(), {rgb.r, rgb.g, rgb.b});
+            }
+            for (const auto& [key, member] : value[i].items()) {
+                const auto& known = brdf_.table->columns;
+                if (std::find(known.begin(), known.end(), key) == known.end()) {
+                    refuse(document_.file, at(property, i, key), shown(member), "one of " + joined(known));
+                }
+            }
+        }
+        try {
+            return brdf_.table->fromColumns(columns);
+        } catch (const InputError& error) {
+            throw InputError(document_.file + ": " + property_ + "." + error.what());
+        }
+    }
+
+    /// Three numbers, or where `broadcast` one that stands for all.
+    glm::dvec3 rgbOf(const json& value, const std::string& property, bool broadcast) const {
+        if (broadcast && value.is_number()) {
+            return glm::dvec3(value.get<double>());
+        }
+        if (!value.is_array() || value.size() != 3 ||
+            !std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); })) {
+            refuse(document_.file, property, shown(value),
+                   broadcast ? "a number, or three for red, green and blue"
+                             : "three numbers, red, green and blue");
+        }
+        return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+    }
+
+    std::vector<std::string> knownNames(const std::string& group) const {
         std::vector<std::string> names;
         for (const Parameter& parameter : brdf_.parameters) {
-            names.push_back(parameter.name);
+            if (parameter.group != group) {
+                if (group.empty() && parameter.group == parameter.name) {
+                    names.push_back(parameter.group);
+                }
+                continue;
+            }
+            names.push_back(parameter.group == parameter.name ? "type" : parameter.name);
             if (parameter.mayBeTextured) {
                 names.push_back(parameter.name + kTextureSuffix);
             }
@@ -73,9 +268,10 @@ private:
         return names;
     }
 
-    void readValue(size_t index, const json& value) {
+    void readValue(size_t index, const json& value, const std::string& group) {
         const Parameter& parameter = brdf_.parameters[index];
-        const std::string property = property_ + "." + parameter.name;
+        const std::string property = property_ + "." + (group.empty() ? "" : group + ".") +
+                                     (!group.empty() && parameter.name == group ? "type" : parameter.name);
         double* out = material_.values.data() + brdf_.valueOffset(static_cast<int>(index));
         switch (parameter.kind) {
             case ParameterKind::scalar:
@@ -84,26 +280,29 @@ private:
                 }
                 *out = value.get<double>();
                 return;
-            case ParameterKind::rgb:
-                if (!value.is_array() || value.size() != 3 ||
-                    !std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); })) {
-                    refuse(document_.file, property, shown(value), "three numbers, red, green and blue");
-                }
-                for (size_t c = 0; c < 3; ++c) {
-                    out[c] = value[c].get<double>();
+            case ParameterKind::rgb: {
+                // An index that is the same for all wavelengths is usually written as one number.
+                const glm::dvec3 rgb =
+                    rgbOf(value, property, parameter.name == "eta" || parameter.name == "k");
+                for (int c = 0; c < 3; ++c) {
+                    out[c] = rgb[c];
                 }
                 return;
+            }
             case ParameterKind::choice: {
                 const auto& choices = parameter.choices;
                 const std::string name = value.is_string() ? value.get<std::string>() : "";
                 const auto found = std::find(choices.begin(), choices.end(), name);
                 if (found == choices.end()) {
                     refuse(document_.file, property, shown(value),
-                           "one of " + joined(choices) + didYouMean(name, choices));
+                           "one of " + joined(group.empty() ? choices : groupTypes(group)) +
+                               didYouMean(name, choices));
                 }
                 *out = static_cast<double>(found - choices.begin());
                 return;
             }
+            case ParameterKind::table:
+                return;  // readTable()
         }
     }
 

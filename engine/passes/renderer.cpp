@@ -52,9 +52,10 @@ struct Renderer::State {
               options(renderOptions),
               plan(std::move(framePlan)),
               targets(plan, renderOptions.width, renderOptions.height),
-              surfaces(*scene, plan, capabilities, programs),
+              tables(*scene),
+              surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
-              inputs(*scene, plan),
+              inputs(*scene, plan, tables),
               resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
@@ -72,6 +73,7 @@ struct Renderer::State {
         RenderOptions options;
         FramePlan plan;
         Targets targets;
+        BrdfTableBuffer tables;
         SurfaceDraws surfaces;
         LightBuffers lights;
         ScreenInputs inputs;

@@ -5,8 +5,8 @@
 
 namespace lobe {
 
-ScreenInputs::ScreenInputs(const Scene& scene, const FramePlan& plan)
-    : scene_(scene), plan_(plan), empty_(gl::VertexArray::make()) {
+ScreenInputs::ScreenInputs(const Scene& scene, const FramePlan& plan, const BrdfTableBuffer& tables)
+    : scene_(scene), plan_(plan), tables_(tables), empty_(gl::VertexArray::make()) {
     if (materialTableStride(plan) == 0) return;
     std::vector<float> table;
     for (const Material& material : scene.materials) {
@@ -29,11 +29,14 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
     attach("uDepth", GL_TEXTURE_2D,
            targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
     if (targets.has("normal")) attach("uNormal", GL_TEXTURE_2D, targets.texture("normal"));
+    if (targets.has("tangent")) attach("uTangent", GL_TEXTURE_2D, targets.texture("tangent"));
     if (targets.has("material")) attach("uMaterialId", GL_TEXTURE_2D, targets.texture("material"));
     for (int i = 0; targets.has("parameters" + std::to_string(i)); ++i)
         attach("uParameters" + std::to_string(i), GL_TEXTURE_2D,
                targets.texture("parameters" + std::to_string(i)));
     if (materials_.texture) attach("uMaterials", GL_TEXTURE_BUFFER, materials_.texture.id());
+
+    tables_.bind(program);
 
     program.set("uDepthToZ", glm::vec4(view.depthToZ));
     program.set("uRayOrigin", glm::vec3(view.rayOrigin));

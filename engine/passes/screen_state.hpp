@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gl/program.hpp"
+#include "passes/brdf_table_buffer.hpp"
 #include "passes/targets.hpp"
 #include "plan/plan.hpp"
 #include "scene/camera.hpp"
@@ -12,7 +13,7 @@ namespace lobe {
 /// What a screen pass reads: the G-buffer, the material table, the view.
 class ScreenInputs {
 public:
-    ScreenInputs(const Scene& scene, const FramePlan& plan);
+    ScreenInputs(const Scene& scene, const FramePlan& plan, const BrdfTableBuffer& tables);
 
     /// Sets the G-buffer's samplers, the view and the parameters that are the same for all the model's
     /// materials. Uses texture units from 0; returns the first free one.
@@ -34,6 +35,7 @@ private:
 
     const Scene& scene_;
     const FramePlan& plan_;
+    const BrdfTableBuffer& tables_;
     gl::TextureBuffer materials_;
     gl::VertexArray empty_;
 };

@@ -61,10 +61,11 @@ void setUvTransform(const gl::Program& program, const std::string& name, const T
 }  // namespace
 
 SurfaceDraws::SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capabilities& capabilities,
-                           ProgramCache& programs)
+                           ProgramCache& programs, const BrdfTableBuffer& tables)
     : scene_(scene),
       plan_(plan),
       programs_(programs),
+      tables_(tables),
       textures_(scene, plan.quality.textureBits, capabilities) {
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
@@ -212,6 +213,7 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
             shader = &program(pass, *variant);
             shader->use();
             shader->set("uClipFromRelative", glm::mat4(view.clipFromRelative));
+            tables_.bind(*shader);
             perProgram(*shader);
             if (plan_.masked)
                 if (const PlannedBrdf* brdf = plan_.brdf(variant->brdf))

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "passes/brdf_table_buffer.hpp"
 #include "passes/gpu_textures.hpp"
 #include "passes/program_cache.hpp"
 #include "plan/plan.hpp"
@@ -20,7 +21,7 @@ enum class SurfaceOrder { byProgram, backToFront };
 class SurfaceDraws {
 public:
     SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capabilities& capabilities,
-                 ProgramCache& programs);
+                 ProgramCache& programs, const BrdfTableBuffer& tables);
 
     /// Compiles the programs of a pass and uploads what they read, so that the first picture's time is its
     /// own.
@@ -53,6 +54,7 @@ private:
     const Scene& scene_;
     const FramePlan& plan_;
     ProgramCache& programs_;
+    const BrdfTableBuffer& tables_;
     GpuTextures textures_;
     std::map<int, Geometry> geometry_;
     std::vector<int> surfaceOfInstance_;

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "plan/summary.hpp"
+#include "scene/brdf_tables.hpp"
 
 namespace lobe {
 namespace {
@@ -80,6 +81,7 @@ Scene withBrdf(const Scene& scene, const Brdf& brdf) {
             }
         }
     }
+    placeTables(result.materials);
     return result;
 }
 

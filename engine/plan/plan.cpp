@@ -30,6 +30,10 @@ int bytesOfFormat(const std::string& format) {
     return sizes.at(format);
 }
 
+bool scattersLight(const std::string& model) {
+    return model != kUnlit && requireBrdf(model).traits.scattersLight;
+}
+
 FramePlan Planner::plan() {
     plan_.samples = plan_.quality.samples;
     plan_.surfaces = scene_.surfaces;
@@ -47,6 +51,7 @@ FramePlan Planner::plan() {
     contributions_ = aovs_.contains(Aov::contributions);
 
     planModels();
+    planTable();
     planGeometryChannels();
     planRadiance();
     planLights();

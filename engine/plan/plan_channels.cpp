@@ -60,6 +60,7 @@ void Planner::planGeometryChannels() {
     if (!plan_.reversedDepth && needsPosition)
         addTarget("linear_z", "R32F", "distance along the view axis, m", "position, without clip control");
     planNormal();
+    planTangent();
     planMaterialId();
     planParameters();
 }
@@ -69,10 +70,11 @@ void Planner::planNormal() {
     bool lit = false;
     for (const BrdfFacts& facts : scene_.brdfs) {
         sharpness = std::max(sharpness, facts.sharpness);
-        lit |= facts.name != kUnlit;
+        lit |= scattersLight(facts.name);
     }
     if (!(lit && anyLight_) && !wants(Aov::normal)) {
-        leaveOut("channel", "normal", !anyLight_ ? "no light reads it" : "every opaque surface is unlit");
+        leaveOut("channel", "normal",
+                 !anyLight_ ? "no light reads it" : "no opaque surface shows punctual light");
         return;
     }
     const bool wide = plan_.quality.gbufferBits == 32 || sharpness > kSharpnessOf16Bits;
@@ -81,6 +83,33 @@ void Planner::planNormal() {
               plan_.quality.gbufferBits == 32 ? "quality asks for full precision"
               : wide                          ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
                                               : "16 bits change no lobe here by more than 1 %");
+}
+
+void Planner::planTangent() {
+    const bool used = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(),
+                                  [](const BrdfFacts& facts) { return facts.usesTangent; });
+    if (!used || !anyLight_) {
+        leaveOut("channel", "tangent", used ? "no light reads it" : "no model in use is anisotropic");
+        return;
+    }
+    addTarget("tangent", "R32F", "direction of the tangent about the normal, with its handedness in the sign",
+              "an anisotropic model is turned by it; 32 bits turn a lobe of 1000 : 1 by less than 0.1 %");
+}
+
+/// The rows that models read beside their parameters.
+void Planner::planTable() {
+    if (scene_.tableRows == 0) {
+        leaveOut("buffer", "table of models", "no model in use reads lobes or measurements");
+        return;
+    }
+    const auto most = static_cast<size_t>(capabilities_.maxTextureBufferTexels);
+    if (scene_.tableRows > most)
+        throw ContextError("the scene's materials have tables of " + std::to_string(scene_.tableRows) +
+                           " rows; expected at most " + std::to_string(most) +
+                           ", what the driver's buffers hold");
+    plan_.notes.push_back("table of models: " + std::to_string(scene_.tableRows) +
+                          " rows of lobes or measurements, " + std::to_string(scene_.tableRows * 16 / 1024) +
+                          " KiB");
 }
 
 void Planner::planMaterialId() {

@@ -128,12 +128,12 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
                      {"depth"},
                      {contributions_ ? "contribution." + kind : "radiance"},
                      plural(count, kind + " light")};
-    for (const char* channel : {"linear_z", "normal", "material"})
+    for (const char* channel : {"linear_z", "normal", "tangent", "material"})
         if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
     for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
         pass.reads.push_back("parameters" + std::to_string(i));
     for (const PlannedBrdf& brdf : plan_.brdfs) {
-        if (brdf.name == kUnlit) continue;
+        if (!scattersLight(brdf.name)) continue;
         // Lists of clusters are drawn tile by tile, lights that reach everything over the whole picture:
         // two programs.
         Defines lights;
@@ -141,11 +141,12 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
         for (const auto& [key, value] : lights) {
             Defines defines = commonDefines();
             defines[key] = value;
+            if (requireBrdf(brdf.name).traits.usesTangent) defines["USES_TANGENT"] = "1";
             if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
             pass.variants.push_back({brdf.name, -1, defines});
         }
     }
-    if (pass.variants.empty()) return leaveOut("pass", name, "no opaque surface takes light");
+    if (pass.variants.empty()) return leaveOut("pass", name, "no opaque surface shows it");
     plan_.passes.push_back(pass);
 }
 
@@ -162,7 +163,7 @@ void Planner::planForward() {
         const SurfaceFeatures& features = plan_.surfaces[i];
         if (deferred_ && features.alphaMode != AlphaMode::blend) continue;
         Defines defines = surfaceDefines(features);
-        if (features.brdf != kUnlit) {
+        if (scattersLight(features.brdf)) {
             if (scene_.directionalLights > 0) lightDefines(defines, LightType::directional);
             if (scene_.pointLights > 0) lightDefines(defines, LightType::point);
             if (scene_.spotLights > 0) lightDefines(defines, LightType::spot);

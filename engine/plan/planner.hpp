@@ -12,6 +12,9 @@ namespace lobe {
 /// "1 light", "2 lights".
 std::string plural(int count, const std::string& noun);
 
+/// Whether punctual lights show on surfaces of this model.
+bool scattersLight(const std::string& model);
+
 /// Bytes a pixel of a format, by its OpenGL name.
 int bytesOfFormat(const std::string& format);
 
@@ -43,6 +46,8 @@ private:
     void planModels();
     void planGeometryChannels();
     void planNormal();
+    void planTangent();
+    void planTable();
     void planMaterialId();
     void planParameters();
     void planRadiance();

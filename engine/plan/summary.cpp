@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/brdf_tables.hpp"
+
 namespace lobe {
 namespace {
 
@@ -213,6 +215,7 @@ SceneSummary summarise(const Scene& scene) {
             list.push_back(use);
         summary.brdfs.push_back(factsOf(name, list));
     }
+    summary.tableRows = tableRows(scene.materials);
     summary.surfaces.assign(surfaces.begin(), surfaces.end());
     summary.materialsInUse.assign(materials.begin(), materials.end());
     summariseTextures(scene, summary.ambient, summary);

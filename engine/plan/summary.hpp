@@ -57,6 +57,7 @@ struct SurfaceFeatures {
 };
 
 struct SceneSummary {
+    size_t tableRows = 0;          ///< of the tables that models read beside their parameters
     std::vector<BrdfFacts> brdfs;  ///< sorted by name; kUnlit included; of opaque and masked surfaces only
     std::set<std::string> blendedBrdfs;
     std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once

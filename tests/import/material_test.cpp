@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "gltf_builder.hpp"
+#include "scene/brdf_tables.hpp"
 
 namespace lobe::test {
 namespace {
@@ -277,6 +281,170 @@ TEST(Materials, NamedModelsAreRefusedWithReason) {
     EXPECT_THAT(refused({{"model", "phong"}, {"shininessTexture", {{"index", 0}, {"channel", 4}}}}),
                 HasSubstr("0 to 3"));
     EXPECT_THAT(refused({{"diffuse", {1, 1, 1}}}), HasSubstr(where + ".model: missing"));
+}
+
+/// The material that a LOBE_materials_brdf object makes, beside files that it names.
+Material namedModel(const json& brdf) {
+    return triangle({{"extensions", {{"LOBE_materials_brdf", brdf}}}}).import().scene.materials.at(0);
+}
+
+TEST(Materials, FresnelIsAnObjectOfItsOwn) {
+    const Material exact =
+        namedModel({{"model", "cook_torrance"},
+                    {"m", 0.2},
+                    {"fresnel", {{"type", "conductor"}, {"eta", {0.1, 0.2, 0.3}}, {"k", 3.5}}}});
+    EXPECT_THAT(valueOf(exact, "fresnel"), ElementsAre(2));
+    EXPECT_THAT(valueOf(exact, "eta"), ElementsAre(0.1, 0.2, 0.3));
+    EXPECT_THAT(valueOf(exact, "k"), ElementsAre(3.5, 3.5, 3.5));
+    const Material glass =
+        namedModel({{"model", "mirror"}, {"fresnel", {{"type", "dielectric"}, {"eta", 1.33}}}});
+    EXPECT_THAT(valueOf(glass, "fresnel"), ElementsAre(1));
+    EXPECT_THAT(valueOf(glass, "eta"), ElementsAre(1.33, 1.33, 1.33));
+    const Material gold = namedModel({{"model", "he"}, {"fresnel", {{"type", "metal"}, {"name", "gold"}}}});
+    EXPECT_THAT(valueOf(gold, "fresnel"), ElementsAre(2));
+    EXPECT_THAT(valueOf(gold, "eta"), ElementsAre(0.1837, 0.4573, 1.3724));
+    const Material iron =
+        namedModel({{"model", "ggx"}, {"fresnel", {{"type", "schlick"}, {"name", "iron"}}}});
+    EXPECT_THAT(valueOf(iron, "f0"), ElementsAre(0.56, 0.57, 0.58));
+}
+
+TEST(Materials, FresnelIsRefusedWithReason) {
+    const auto refused = [](const json& fresnel) {
+        return triangle(
+                   {{"extensions", {{"LOBE_materials_brdf", {{"model", "mirror"}, {"fresnel", fresnel}}}}}})
+            .refusal();
+    };
+    const std::string where = "materials[0].extensions.LOBE_materials_brdf.fresnel";
+    EXPECT_THAT(refused(1.5), HasSubstr(where + ": 1.5; expected an object with a type"));
+    EXPECT_THAT(refused({{"eta", 1.5}}), HasSubstr(where + ".type: missing; expected one of schlick, "));
+    EXPECT_THAT(refused({{"type", "conducter"}}), HasSubstr("did you mean 'conductor'?"));
+    EXPECT_THAT(
+        refused({{"type", "metal"}, {"name", "glod"}}),
+        AllOf(HasSubstr(where + ".name: \"glod\"; expected one of "), HasSubstr("did you mean 'gold'?")));
+    EXPECT_THAT(refused({{"type", "metal"}}), HasSubstr(where + ".name: missing"));
+    EXPECT_THAT(refused({{"type", "dielectric"}, {"ior", 1.5}}),
+                HasSubstr(where + ".ior: 1.5; expected one of"));
+    EXPECT_THAT(refused({{"type", "dielectric"}, {"eta", 0}}), HasSubstr("eta[0]: 0; expected 0.01..20"));
+    EXPECT_THAT(
+        triangle({{"extensions", {{"LOBE_materials_brdf", {{"model", "mirror"}, {"eta", 1.5}}}}}}).refusal(),
+        HasSubstr("LOBE_materials_brdf.eta: 1.5; expected one of fresnel"));
+}
+
+TEST(Materials, LafortunesLobes) {
+    const Brdf& brdf = requireBrdf("lafortune");
+    const Material own = namedModel({{"model", "lafortune"},
+                                     {"diffuse", {0.1, 0.1, 0.1}},
+                                     {"lobes",
+                                      {{{"cx", -1}, {"cy", {-1, -0.9, -0.8}}, {"cz", 1}, {"n", 20}},
+                                       {{"cx", 0}, {"cy", 0}, {"cz", 0.9}, {"n", {1, 2, 3}}}}}});
+    EXPECT_THAT(std::vector<double>(brdf.tableOf(own.values).begin(), brdf.tableOf(own.values).end()),
+                ElementsAre(2, 0, 0, 0,                                                   //
+                            -1, -1, -1, 0, -1, -0.9, -0.8, 0, 1, 1, 1, 0, 20, 20, 20, 0,  //
+                            0, 0, 0, 0, 0, 0, 0, 0, 0.9, 0.9, 0.9, 0, 1, 2, 3, 0));
+    EXPECT_EQ(brdf.tableOf(namedModel({{"model", "lafortune"}, {"lobes", "brushedmetal"}}).values)[0], 3.0);
+    const auto refused = [](const json& lobes) {
+        return triangle(
+                   {{"extensions", {{"LOBE_materials_brdf", {{"model", "lafortune"}, {"lobes", lobes}}}}}})
+            .refusal();
+    };
+    const json sound = {{"cx", -1}, {"cy", -1}, {"cz", 1}, {"n", 20}};
+    EXPECT_EQ(refused(json::array({sound})), "");
+    EXPECT_THAT(refused(json::array()), HasSubstr("lobes: []; expected an array of 1 to"));
+    EXPECT_THAT(refused("brushedmetl"), HasSubstr("did you mean"));
+    json broken = sound;
+    broken["n"] = -2;
+    EXPECT_THAT(refused(json::array({sound, broken})),
+                HasSubstr("LOBE_materials_brdf.lobes[1].n: -2; expected above 0"));
+    broken["n"] = 1e5;
+    broken["cz"] = 1.2;
+    EXPECT_THAT(refused(json::array({broken})),
+                HasSubstr("lobes[0]: 1.2 to the power 100000; expected at most 1e30"));
+    broken.erase("cx");
+    EXPECT_THAT(refused(json::array({broken})), HasSubstr("lobes[0].cx: missing"));
+    broken = sound;
+    broken["exponent"] = 3;
+    EXPECT_THAT(refused(json::array({broken})),
+                HasSubstr("lobes[0].exponent: 3; expected one of cx, cy, cz, n"));
+}
+
+/// A table of the MERL database's layout, all of whose cells hold one value.
+std::string merlFile(int32_t thetaH, int32_t thetaD, int32_t phiD, double value) {
+    std::string bytes;
+    const auto add = [&bytes](const auto& number) {
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    for (const int32_t size : {thetaH, thetaD, phiD}) {
+        add(size);
+    }
+    for (int32_t i = 0; i < 3 * thetaH * thetaD * phiD; ++i) {
+        add(value);
+    }
+    return bytes;
+}
+
+TEST(Materials, MeasuredTables) {
+    const TemporaryFolder folder;
+    const Brdf& brdf = requireBrdf("measured");
+    const auto scene = [&](const char* file) {
+        return folder.write(
+            "s.gltf",
+            triangle({{"extensions", {{"LOBE_materials_brdf", {{"model", "measured"}, {"file", file}}}}}})
+                .text());
+    };
+    folder.write("grey.binary", merlFile(4, 3, 2, 150.0));
+    const Imported imported = importGltf(scene("grey.binary"), {});
+    const Material& material = imported.scene.materials.at(0);
+    const auto table = brdf.tableOf(material.values);
+    ASSERT_EQ(table.size(), 4U * (2 + 4 * 3 * 2));
+    EXPECT_EQ(table[0], 4.0);
+    EXPECT_NEAR(table[8], 150.0 / 1500.0, 1e-15);
+    EXPECT_NEAR(table[9], 1.15 * 150.0 / 1500.0, 1e-15);
+    EXPECT_NEAR(table[10], 1.66 * 150.0 / 1500.0, 1e-15);
+    // The albedo of f = 0.1 is 0.1 pi.
+    EXPECT_NEAR(table[4], 0.1 * std::numbers::pi, 1e-5);
+    const auto refusal = [&](const std::string& bytes) -> std::string {
+        folder.write("bad.binary", bytes);
+        try {
+            importGltf(scene("bad.binary"), {});
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refusal("short"),
+                HasSubstr("LOBE_materials_brdf.file: bad.binary: 5 bytes; expected a MERL table"));
+    EXPECT_THAT(refusal(merlFile(4, 3, 2, 1.0).substr(0, 100)),
+                HasSubstr("100 bytes; expected 588 for 4 x 3 x 2 cells"));
+    EXPECT_THAT(refusal(merlFile(4, 3, 2, 1.0) + "x"), HasSubstr("589 bytes; expected 588"));
+    EXPECT_THAT(refusal(merlFile(4, 3, 2, std::nan(""))),
+                HasSubstr("value 0 of channel 0: NaN; expected a finite"));
+    EXPECT_THAT(refusal(std::string(12, '\xff')),
+                HasSubstr("size -1 in the first 12 bytes; expected 1..4096"));
+    EXPECT_EQ(refusal(merlFile(4, 3, 2, -1.0)), "") << "cells that were not measured";
+    EXPECT_THROW(importGltf(scene("../grey.binary"), {}), InputError);
+    EXPECT_THROW(importGltf(scene("missing.binary"), {}), InputError);
+}
+
+TEST(Materials, EqualTablesShareTheirPlace) {
+    const auto lobes = [](double n) {
+        return json{
+            {"extensions",
+             {{"LOBE_materials_brdf",
+               {{"model", "lafortune"}, {"lobes", {{{"cx", -1}, {"cy", -1}, {"cz", 1}, {"n", n}}}}}}}}};
+    };
+    std::vector<Material> materials;
+    for (const double n : {20.0, 30.0, 20.0}) {
+        materials.push_back(triangle(lobes(n)).import().scene.materials.at(0));
+    }
+    placeTables(materials);
+    EXPECT_THAT(valueOf(materials[0], "lobes"), ElementsAre(0));
+    EXPECT_THAT(valueOf(materials[1], "lobes"), ElementsAre(5));
+    EXPECT_THAT(valueOf(materials[2], "lobes"), ElementsAre(0));
+    EXPECT_EQ(tableRows(materials), 10U);
+    const std::vector<float> rows = gatherTables(materials);
+    ASSERT_EQ(rows.size(), 40U);
+    EXPECT_EQ(rows[16], 20.0f);
+    EXPECT_EQ(rows[36], 30.0f);
 }
 
 TEST(Materials, UnsupportedExtensionsAreNamedOnce) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "passes/renderer.hpp"
+#include "scene/brdf_tables.hpp"
 #include "support/scenes.hpp"
 
 namespace lobe::test {
@@ -83,18 +84,23 @@ inline std::ostream& operator<<(std::ostream& out, const Difference& d) {
 }
 
 /// Spheres of all registered models with punctual lights of each type, ambient and emission.
+/// Of the spheres of modelsAndLights(), m.
+inline constexpr double kModelRadius = 0.44;
+
 inline Scene modelsAndLights() {
     Scene scene;
-    int column = 0;
+    int number = 0;
     for (const Brdf& brdf : allBrdfs()) {
         const int material = addMaterial(scene, brdf.name);
         scene.materials[static_cast<size_t>(material)].values =
             brdf.fromMetallicRoughness({{0.8, 0.5, 0.3}, 0.3, 0.5});
         const int sphere = addSphere(scene, material);
-        const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(1.2 * column - 1.8, 0, 0));
-        addInstance(scene, sphere, glm::scale(place, glm::dvec3(0.55)));
-        ++column;
+        const glm::dvec3 position(0.95 * (number % 5) - 1.9, 0.95 - 0.95 * (number / 5), 0.0);
+        addInstance(scene, sphere,
+                    glm::scale(glm::translate(glm::dmat4(1.0), position), glm::dvec3(kModelRadius)));
+        ++number;
     }
+    placeTables(scene.materials);
     scene.materials[0].emission = glm::vec3(0.05f, 0.0f, 0.02f);
     scene.ambientRadiance = glm::dvec3(0.1, 0.2, 0.3);
     scene.lights.push_back(directional({0.3, -1, -0.5}, {2.0, 1.9, 1.7}));

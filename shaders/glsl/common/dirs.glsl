@@ -35,6 +35,27 @@ Frame frame_from_normal_tangent(vec3 n, vec4 tangent)
     return Frame(t, (tangent.w < 0.0 ? -1.0 : 1.0) * cross(n, t), n);
 }
 
+/// The frame's tangent and handedness as one number beside its normal: the tangent's direction in
+/// frame_from_normal(f.n), projected onto a diamond, as 1 to 5, negative where the frame is left-handed.
+float frame_encode_tangent(Frame f)
+{
+    Frame g = frame_from_normal(f.n);
+    vec2 t = vec2(dot(g.t, f.t), dot(g.b, f.t));
+    float x = t.x / max(abs(t.x) + abs(t.y), 1e-37);
+    float turn = t.y >= 0.0 ? 1.0 - x : x - 1.0;
+    return dot(cross(f.n, f.t), f.b) < 0.0 ? -3.0 - turn : 3.0 + turn;
+}
+
+Frame frame_decode_tangent(vec3 n, float code)
+{
+    Frame g = frame_from_normal(n);
+    float turn = abs(code) - 3.0;
+    float x = 1.0 - abs(turn);
+    vec2 t = normalize(vec2(x, (turn >= 0.0 ? 1.0 : -1.0) * (1.0 - abs(x))));
+    vec3 tangent = g.t * t.x + g.b * t.y;
+    return Frame(tangent, (code < 0.0 ? -1.0 : 1.0) * cross(n, tangent), n);
+}
+
 vec3 frame_to_local(Frame f, vec3 v) { return vec3(dot(f.t, v), dot(f.b, v), dot(f.n, v)); }
 
 /// For callers with many lights: wo_local = frame_to_local(f, view_dir_w), rotated once.

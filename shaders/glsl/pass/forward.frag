@@ -42,7 +42,11 @@ void main()
     radiance += model_ambient(params) * uAmbientRadiance * surface_occlusion();
 #endif
     vec3 ray = uRayDirection + gl_FragCoord.x * uRayDirectionDx + gl_FragCoord.y * uRayDirectionDy;
+#ifdef USES_TANGENT
+    Frame frame = frame_from_normal_tangent(surface_normal(), surface_tangent());
+#else
     Frame frame = frame_from_normal(surface_normal());
+#endif
     radiance += all_lights(light_receiver(vPosition, ray, dot(vPosition, uForward), frame), params);
 #endif
 #ifdef CONTRIBUTIONS

@@ -1,6 +1,7 @@
 /// gbuffer.frag - stores what the lighting passes need of the nearest surface, and its emission and ambient light.
 #include "pass/gbuffer_normal.glsl"
 #include "pass/surface.glsl"
+#include "common/dirs.glsl"
 
 #ifdef OUT_LINEAR_Z
 layout(location = OUT_LINEAR_Z) out float oLinearZ;
@@ -8,6 +9,9 @@ uniform vec3 uForward;
 #endif
 #if defined(OUT_NORMAL) && !defined(UNLIT)
 layout(location = OUT_NORMAL) out vec2 oNormal;
+#endif
+#if defined(OUT_TANGENT) && !defined(UNLIT)
+layout(location = OUT_TANGENT) out float oTangent;
 #endif
 #ifdef OUT_MATERIAL
 layout(location = OUT_MATERIAL) out uint oMaterial;
@@ -41,6 +45,14 @@ void main()
 #ifndef UNLIT
 #ifdef OUT_NORMAL
     oNormal = gbuffer_encode_normal(surface_normal_direction());
+#endif
+#ifdef OUT_TANGENT
+#ifdef USES_TANGENT
+    vec3 stored = gbuffer_stored_normal(surface_normal());
+    oTangent = frame_encode_tangent(frame_from_normal_tangent(stored, surface_tangent()));
+#else
+    oTangent = 0.0;
+#endif
 #endif
     MODEL_PARAMS params = surface_params();
     gbuffer_write_params(params);

@@ -8,6 +8,9 @@ uniform vec3 uRayDirection, uRayDirectionDx, uRayDirectionDy;
 #ifdef HAS_NORMAL
 uniform sampler2D uNormal;
 #endif
+#ifdef USES_TANGENT
+uniform sampler2D uTangent;
+#endif
 #ifdef HAS_MATERIAL
 uniform usampler2D uMaterialId;
 uniform samplerBuffer uMaterials;

@@ -11,7 +11,11 @@ void main()
 {
     float z = gbuffer_z();
     vec3 ray = gbuffer_ray();
+#ifdef USES_TANGENT
+    Frame frame = frame_decode_tangent(gbuffer_normal(), texelFetch(uTangent, gbuffer_pixel(), 0).x);
+#else
     Frame frame = frame_from_normal(gbuffer_normal());
+#endif
     LightReceiver receiver = light_receiver(gbuffer_position(z, ray), ray, z, frame);
     oRadiance = vec4(all_lights(receiver, gbuffer_read_params()), 0.0);
 }
