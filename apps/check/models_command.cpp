@@ -1,0 +1,9 @@
+#include "commands.hpp"
+
+namespace lobe::app {
+
+int modelsCommand(const std::vector<std::string>&) {
+    return 0;
+}
+
+}  // namespace lobe::app

@@ -1,0 +1,6 @@
+// lobe-check-worker: compiles and runs what is tested.
+#include "base/worker.hpp"
+
+int main() {
+    return lobe::serveWorker([](const lobe::Message&) { return lobe::Message{}; });
+}
