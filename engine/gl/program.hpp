@@ -19,7 +19,8 @@ struct ShaderSource {
         std::string file;
         int line;
     };
-    std::vector<Place> places;  ///< one a line of text
+    std::vector<Place> places;                 ///< one a line of text
+    std::vector<std::filesystem::path> files;  ///< all that were read
 };
 
 /// Reads shader files. `#include "brdf/ward.glsl"` is rooted at the library; each file is taken once. Names
@@ -27,14 +28,22 @@ struct ShaderSource {
 class ShaderLibrary {
 public:
     explicit ShaderLibrary(std::filesystem::path root);
+    /// For files that need not be Lobe's: what they include is looked for beside the including file, then in
+    /// each of `folders`; places name paths, relative where they are below the working directory. Any
+    /// `#version` in them is taken out, and the highest, 330 at least, is the whole text's (those of other
+    /// profiles are refused); `#extension` lines move to the top; `#line` lines are taken out.
+    static ShaderLibrary ofFiles(std::vector<std::filesystem::path> folders);
+
     /// The whole text: "#version 330 core", the defines, then `file` with its includes. Throws ShaderError
     /// (missing file, include cycle or depth) naming file and line.
     ShaderSource source(const std::string& file, const Defines& defines,
                         const std::map<std::string, std::string>& generated = {}) const;
-    const std::filesystem::path& root() const { return root_; }
+    /// The first folder.
+    const std::filesystem::path& root() const { return folders_.front(); }
 
 private:
-    std::filesystem::path root_;
+    std::vector<std::filesystem::path> folders_;
+    bool ofFiles_ = false;
 };
 
 /// A linked program. Move-only.
