@@ -52,7 +52,9 @@ public:
     Program() = default;
     /// Throws ShaderError: "pass/light.frag:41: message", with three lines of source, for each of the
     /// driver's lines that can be placed.
-    Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name);
+    /// `captured`: outputs of the vertex stage that transform feedback writes, interleaved.
+    Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name,
+            const std::vector<std::string>& captured = {});
     Program(Program&&) noexcept;
     Program& operator=(Program&&) noexcept;
     ~Program();

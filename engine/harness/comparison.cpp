@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include "math/ulp.hpp"
@@ -18,6 +19,9 @@ constexpr double kUnderflow = 3e-33;
 /// Lobes that one rounding of a direction takes across this share of their width can't be followed by
 /// differences.
 constexpr double kNarrowest = 0.03;
+
+/// The least that 4 + c can be; and the largest c for which ulps are worth counting.
+constexpr double kWellConditioned = 4.0;
 
 /// Beyond this a float is near its end: such values only have to be large and finite.
 constexpr double kLargest = 1e37;
@@ -44,10 +48,16 @@ std::string describe(const BrdfRow& row) {
 bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3& got) {
     const ParameterValues values = valuesOf(brdf_, row);
     const glm::dvec3 exact = brdf_.fCos(d, values);
-    const Condition condition = conditionOf(brdf_, d, values);
-    const glm::dvec3 directions = axes_ == Axes::local ? condition.componentwise : condition.angular;
-    const glm::dvec3 unit = kFloatRounding * (4.0 + directions + condition.length + condition.parameters);
-    const glm::dvec3 allowance = kFactor * unit;
+    std::optional<glm::dvec3> number;
+    const auto conditionNumber = [&] {
+        if (!number) {
+            const Condition condition = conditionOf(brdf_, d, values);
+            number = (axes_ == Axes::local ? condition.componentwise : condition.angular) + condition.length +
+                     condition.parameters;
+        }
+        return *number;
+    };
+    if (conditions_ == Conditions::always) conditionNumber();
     const bool unresolved = brdf_.lobeSharpness(values) * kFloatRounding > kNarrowest;
     for (int c = 0; c < 3; ++c) {
         ++count_;
@@ -66,17 +76,25 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
                 return fail(row, c, value, "about " + digits(kLargest, 1) + " or more");
             continue;
         }
-        if (allowance[c] > 0.1) {
+        const double error = std::abs(value - exact[c]) / exact[c];
+        const uint64_t ulps = ulpDistance(got[c], static_cast<float>(exact[c]));
+        if (conditions_ == Conditions::whenNeeded && error <= worst_ * kWellConditioned * kFloatRounding &&
+            ulps <= worstUlp_)
+            continue;
+        const double unit = kFloatRounding * (4.0 + conditionNumber()[c]);
+        const double allowance = kFactor * unit;
+        if (allowance > 0.1) {
             ++illConditioned_;
             continue;
         }
-        const double error = std::abs(value - exact[c]) / exact[c];
-        if (error > allowance[c] + kUnderflow / exact[c])
+        if (error > allowance + kUnderflow / exact[c])
             return fail(row, c, value,
-                        digits(exact[c], 9) + " within " + digits(allowance[c] / kFloatRounding, 4) +
+                        digits(exact[c], 9) + " within " + digits(allowance / kFloatRounding, 4) +
                             " x 2^-24; off by " + digits(error / kFloatRounding, 4));
-        if (error / unit[c] > worst_ && exact[c] > 1e6 * kUnderflow) {
-            worst_ = error / unit[c];
+        if (exact[c] <= 1e6 * kUnderflow) continue;
+        if (conditionNumber()[c] <= kWellConditioned) worstUlp_ = std::max(worstUlp_, ulps);
+        if (error > worst_ * unit) {
+            worst_ = error / unit;
             worstRelative_ = error;
             worstRow_ = describe(row);
         }

@@ -21,7 +21,13 @@ enum class Axes {
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:
-    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) {}
+    /// Condition numbers cost about a hundred evaluations of the twin. `whenNeeded` leaves them out for
+    /// values that are nearer to the twin's than the worst known, whatever their condition: all figures stay
+    /// the same but illConditionedShare(), which is then too small.
+    enum class Conditions : uint8_t { always, whenNeeded };
+
+    Comparison(const Brdf& brdf, Axes axes, Conditions conditions = Conditions::always)
+        : brdf_(brdf), axes_(axes), conditions_(conditions) {}
 
     /// False if the row fails; message() then says where, with both values and the tolerance. `d` are the
     /// row's directions in the local frame, in double.
@@ -30,6 +36,9 @@ public:
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
     double worst() const { return worst_; }  ///< of 16
+    double worstRelative() const { return worstRelative_; }
+    const std::string& worstRow() const { return worstRow_; }
+    uint64_t worstUlp() const { return worstUlp_; }  ///< of values with a condition number of at most 4
     double illConditionedShare() const {
         return static_cast<double>(illConditioned_) / static_cast<double>(count_);
     }
@@ -40,11 +49,13 @@ private:
 
     const Brdf& brdf_;
     Axes axes_;
+    Conditions conditions_;
     std::string message_;
     size_t count_ = 0;
     size_t illConditioned_ = 0;
     double worst_ = 0.0;
     double worstRelative_ = 0.0;
+    uint64_t worstUlp_ = 0;
     std::string worstRow_;
 };
 
