@@ -58,8 +58,8 @@ std::vector<fs::path> sceneFiles(const std::vector<std::string>& inputs) {
             throw UsageError(
                 "scene '-': a scene is read with the files beside it; expected a file or folder");
         if (input.empty()) throw UsageError("scene ''; expected a file or folder");
+        // A missing file is a shot that will fail by itself: the others are rendered all the same.
         std::error_code failed;
-        if (!fs::exists(input, failed)) throw InputError(input + ": no such file");
         if (!fs::is_directory(input, failed)) {
             files.emplace_back(input);
             continue;

@@ -40,6 +40,12 @@ class Batches(LobeTest):
         self.assertIn("absent.gltf", result.stderr)
         self.assertIn("1 of 3 pictures written, 2 failed", result.stderr)
 
+    def test_a_scene_that_is_not_there_does_not_stop_the_others(self):
+        result = self.lobe("render", "absent.gltf", "quad.gltf", "-r", "32,18", "-o", "{model}.png", expect=3)
+        self.assertIn("quad.png", self.files())
+        self.assertIn("absent.gltf: can't be read (No such file", result.stderr)
+        self.assertIn("1 of 2 pictures written, 1 failed", result.stderr)
+
     def test_json_has_one_stable_object_a_shot(self):
         result = self.render("--frames=2", "-o", "j{frame}.png", "--json")
         lines = [json.loads(line) for line in result.stdout.splitlines()]
