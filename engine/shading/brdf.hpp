@@ -84,6 +84,9 @@ struct BrdfTraits {
     /// The formula sees angles only. False where it multiplies components of both directions as they are, so
     /// that lengths that are 1 only to rounding count.
     bool anglesOnly = true;
+    /// The lobe is one of the half vector, whose direction rounding blurs where wi and wo nearly oppose each
+    /// other; else of the mirrored direction.
+    bool halfVectorLobe = true;
     bool usesTangent = false;   ///< anisotropic: needs the frame's x axis
     bool scattersLight = true;  ///< false: shows no light without extent (ideal mirrors)
 };

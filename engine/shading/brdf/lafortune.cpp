@@ -131,6 +131,7 @@ Brdf lafortune() {
     brdf.table = std::move(format);
     // Fits are made to measurements, not to a bound: brushed metal reaches albedo 1.56.
     brdf.traits.energyConserving = false;
+    brdf.traits.halfVectorLobe = false;
     brdf.traits.anglesOnly = false;
     brdf.traits.usesTangent = true;
     brdf.baseColorParameter = "diffuse";
