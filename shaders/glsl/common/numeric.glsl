@@ -37,6 +37,17 @@ float numeric_exp(float x)
     return x < -87.0 ? 0.0 : p * intBitsToFloat((int(k) + 127) << 23);
 }
 
+/// scale e^x for x <= 0, also where e^x alone is too small for a float; exactly 0 below -174.
+float numeric_exp_times(float x, float scale)
+{
+    float y = max(x, -174.0);
+    float k = floor(y * 1.44269504 + 0.5);
+    float r = (y - k * 0.693359375) + k * 2.12194440e-4;
+    int half_k = int(k) / 2;
+    float head = scale * intBitsToFloat((half_k + 127) << 23);
+    return x < -174.0 ? 0.0 : numeric_exp(r) * head * intBitsToFloat((int(k) - half_k + 127) << 23);
+}
+
 /// x^y for x > 0: relative error 5e-7 (1 + |y ln x|).
 float numeric_pow(float x, float y) { return numeric_exp(y * numeric_log(x)); }
 
