@@ -28,6 +28,8 @@ std::vector<ParameterValues> parameterGrid(const Brdf& brdf) {
                                   parameter.maximum};
         if (parameter.kind == ParameterKind::table) {
             steps = {0.0};
+        } else if (parameter.minimum < 0.0) {
+            steps = {0.0, 0.8};  // turns the lobe
         } else if (parameter.kind == ParameterKind::choice) {
             steps.clear();
             for (size_t i = 0; i < parameter.choices.size(); ++i)

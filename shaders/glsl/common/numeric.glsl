@@ -27,6 +27,13 @@ float numeric_log(float x)
 /// ln(1 + x) for x > -1.
 float numeric_log1p(float x) { return abs(x) < 0.3 ? numeric_two_atanh(x / (2.0 + x)) : numeric_log(1.0 + x); }
 
+/// ln(1 + x) / x for 0 <= x < 1e37; 1 at 0.
+float numeric_log1p_ratio(float x)
+{
+    float y = max(x, 1e-37);
+    return numeric_log1p(y) / y;
+}
+
 /// e^x; exactly 0 below -87, e^88 above 88.
 float numeric_exp(float x)
 {
