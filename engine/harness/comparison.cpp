@@ -13,8 +13,10 @@ namespace {
 
 constexpr double kFactor = 16.0;
 
+constexpr double kRoundings = 4.0;
+
 /// The unit of tolerance of a row whose value does not depend on the rounding of its inputs.
-constexpr double kLeastUnit = 4.0 * kFloatRounding;
+constexpr double kLeastUnit = kRoundings * kFloatRounding;
 
 /// Rows with a larger allowance say nothing about the formula.
 constexpr double kLargestAllowance = 0.1;
@@ -58,7 +60,8 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
         if (!known) {
             const Condition condition = conditionOf(brdf_, d, values);
             const glm::dvec3 directions = axes_ == Axes::local ? condition.componentwise : condition.angular;
-            known = kLeastUnit + kFloatRounding * (directions + condition.length + condition.parameters);
+            known = kFloatRounding *
+                    (kRoundings * condition.terms + directions + condition.length + condition.parameters);
         }
         return (*known)[channel];
     };

@@ -1,9 +1,10 @@
 /// A model's GLSL against its double-precision twin, row by row.
 ///
-/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp). Rows
-/// whose allowance exceeds 10 % say nothing about the formula and only have to be finite and not negative;
-/// other rows below 1e-38 have to stay below 1e-30. The condition number is computed only where the error
-/// exceeds the worst one so far with c = 0, which leaves every verdict and the worst row as they are.
+/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp); 4
+/// times the size of the terms over their sum where terms cancel. Rows whose allowance exceeds 10 % say
+/// nothing about the formula and only have to be finite and not negative; other rows below 1e-38 have to stay
+/// below 1e-30. The condition number is computed only where the error exceeds the worst one so far with c =
+/// 0, which leaves every verdict and the worst row as they are.
 #pragma once
 
 #include <string>

@@ -45,6 +45,11 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
     const glm::dvec3 f = brdf.fCos(d, values);
     if (f == glm::dvec3(0.0)) return condition;
 
+    if (brdf.termSizes) {
+        const glm::dvec3 sizes = brdf.termSizes(d, values);
+        for (int c = 0; c < 3; ++c)
+            if (f[c] > 0.0) condition.terms[c] = std::max(sizes[c] / f[c], 1.0);
+    }
     for (int k = 0; k < 3; ++k) {
         const auto scaled = [k](glm::dvec3 w, double by) {
             w[k] *= 1.0 + by;

@@ -42,33 +42,42 @@ struct Angles {
     }
 };
 
-/// Equation 30, without rho / pi.
-double qualitative(const Angles& a, double s2) {
+/// f_r pi / rho as a sum, of which some terms may be negative.
+struct Terms {
+    double constant, facing, across, between;
+
+    double sum() const { return constant + facing + across + between; }
+    double size() const { return constant + std::abs(facing) + across + std::abs(between); }
+};
+
+/// Equation 30.
+Terms qualitative(const Angles& a, double s2) {
     const double A = 1.0 - 0.5 * s2 / (s2 + 0.33);
     const double B = 0.45 * s2 / (s2 + 0.09);
-    return A + B * std::max(a.cosPhi(), 0.0) * std::cos(a.low) * a.tanBeta();
+    return {A, B * std::max(a.cosPhi(), 0.0) * std::cos(a.low) * a.tanBeta(), 0.0, 0.0};
 }
 
-/// Equations 27 and 28, without rho / pi.
-double full(const Angles& a, double s2, double rho) {
+/// Equations 27 and 28.
+Terms full(const Angles& a, double s2, double rho) {
     const double c1 = 1.0 - 0.5 * s2 / (s2 + 0.33);
     const double c2 = 0.45 * s2 / (s2 + 0.09) * (a.cosPhi() >= 0.0 ? std::cos(a.low) : a.cut());
     const double c3 = 0.125 * s2 / (s2 + 0.09) * std::pow(4.0 * a.alpha() * a.beta() / (kPi * kPi), 2.0);
-    const double direct = c1 + a.cosPhi() * c2 * a.tanBeta() + a.azimuthGap() * c3 * a.tanMean();
-    const double interreflected =
-        0.17 * rho * s2 / (s2 + 0.13) * (1.0 - a.cosPhi() * std::pow(2.0 * a.beta() / kPi, 2.0));
-    return direct + interreflected;
+    return {c1, a.cosPhi() * c2 * a.tanBeta(), a.azimuthGap() * c3 * a.tanMean(),
+            0.17 * rho * s2 / (s2 + 0.13) * (1.0 - a.cosPhi() * std::pow(2.0 * a.beta() / kPi, 2.0))};
 }
 
-glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
+/// Each channel's `part` of its terms, times rho / pi cos(theta_i).
+glm::dvec3 ofTerms(const Directions& d, std::span<const double> values, double (Terms::*part)() const) {
     if (!shading::aboveSurface(d)) return glm::dvec3(0.0);
     const glm::dvec3 rho = shading::rgbAt(values, 0);
     const double s2 = values[3] * values[3];
     const Angles angles(d);
     glm::dvec3 f;
-    for (int c = 0; c < 3; ++c)
-        f[c] = rho[c] / kPi * (values[4] == 0.0 ? full(angles, s2, rho[c]) : qualitative(angles, s2));
-    return glm::max(f, glm::dvec3(0.0)) * d.wi.z;
+    for (int c = 0; c < 3; ++c) {
+        const Terms terms = values[4] == 0.0 ? full(angles, s2, rho[c]) : qualitative(angles, s2);
+        f[c] = rho[c] / kPi * std::max((terms.*part)(), 0.0) * d.wi.z;
+    }
+    return f;
 }
 
 }  // namespace
@@ -90,7 +99,12 @@ Brdf oren_nayar() {
     brdf.traits.energyConserving = false;
     brdf.traits.halfVectorLobe = false;
     brdf.baseColorParameter = "diffuse";
-    brdf.fCos = fCos;
+    brdf.fCos = [](const Directions& d, std::span<const double> values) {
+        return ofTerms(d, values, &Terms::sum);
+    };
+    brdf.termSizes = [](const Directions& d, std::span<const double> values) {
+        return ofTerms(d, values, &Terms::size);
+    };
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {

@@ -1,5 +1,6 @@
 /// Ward's Gaussian lobe, isotropic.
 #include "shading/ward.hpp"
+#include "shading/ward_materials.hpp"
 
 namespace lobe::brdf_entry {
 namespace {
@@ -26,6 +27,12 @@ Brdf ward() {
                        colorParameter("specular", glm::dvec3(0.1), "k_s: scale of the lobe"),
                        wardAlpha("alpha", 0.15, "width of the lobe: RMS slope of the surface"),
                        wardVariantParameter()};
+    for (const WardMaterial& m : wardMaterials())
+        if (m.alphaX == m.alphaY)
+            brdf.presets.push_back(
+                {m.name,
+                 kWardMaterialSource,
+                 {m.diffuse, m.diffuse, m.diffuse, m.specular, m.specular, m.specular, m.alphaX, 0.0}});
     // bounded is conserving where diffuse + specular <= 1, which is not enforced; duer is not.
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "diffuse";

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "shading/ward.hpp"
+#include "shading/ward_materials.hpp"
 
 namespace lobe::brdf_entry {
 namespace {
@@ -36,6 +37,11 @@ Brdf ward_anisotropic() {
                                        "exact: the exponent with tan(theta_h); half_vector: Ward's "
                                        "approximation of it, wider and brighter away from the normal"),
                        wardVariantParameter()};
+    for (const WardMaterial& m : wardMaterials())
+        brdf.presets.push_back({m.name,
+                                kWardMaterialSource,
+                                {m.diffuse, m.diffuse, m.diffuse, m.specular, m.specular, m.specular,
+                                 m.alphaX, m.alphaY, 0.0, 0.0, 0.0}});
     // bounded and exact is conserving where diffuse + specular <= 1, which is not enforced; others are not.
     brdf.traits.energyConserving = false;
     brdf.traits.usesTangent = true;
