@@ -33,6 +33,9 @@ void Planner::planModels() {
         brdf.stencil = plan_.masked ? ++stencil : 0;
         brdf.perMaterial.assign(facts.perMaterial.begin(), facts.perMaterial.end());
         plan_.brdfs.push_back(brdf);
+        if (const Brdf* model = findBrdf(facts.name); model != nullptr && !model->file.empty())
+            plan_.notes.push_back("model " + facts.name + ": loaded from " + model->file +
+                                  "; it has no twin to be checked against");
     }
     if (stencil > 255) throw InputError("scene uses more than 255 reflectance models; expected at most 255");
 }
@@ -108,8 +111,8 @@ void Planner::planTable() {
                            " rows; expected at most " + std::to_string(most) +
                            ", what the driver's buffers hold");
     plan_.notes.push_back("table of models: " + std::to_string(scene_.tableRows) +
-                          " rows of lobes or measurements, " + std::to_string(scene_.tableRows * 16 / 1024) +
-                          " KiB");
+                          " rows of lobes or measurements, " +
+                          std::to_string(scene_.tableRows * 16 / 1024) + " KiB");
 }
 
 void Planner::planMaterialId() {
