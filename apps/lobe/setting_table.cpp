@@ -165,6 +165,16 @@ const std::vector<Setting>& settingTable() {
          "may be repeated",
          "Scene"},
 
+        {"bands",
+         integer,
+         3,
+         "bands of wavelength in which metals that are named reflect; 3 is red, green and blue "
+         "(docs/bands.md)",
+         "Scene",
+         {},
+         3,
+         64},
+
         {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",
          "Quality", qualityPresetNames()},
         {"anti_aliasing", choice, nullptr, "samples a pixel", "Quality", {"none", "ssaa4", "ssaa16"}},

@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kRgb = 3;  ///< bands that every scene has
 constexpr double kRadians = std::numbers::pi / 180.0;
 
 double aspectOf(const Settings& settings) {
@@ -119,6 +120,7 @@ json changesOf(const Scene& scene, const Settings& settings) {
     json changes = json::object();
     if (const std::string model = modelForAll(scene, settings); !model.empty()) changes["brdf"] = model;
     if (const json& values = settings.get("brdf_set"); !values.is_null()) changes["brdf_set"] = values;
+    if (const json& bands = settings.get("bands"); bands != kRgb) changes["bands"] = bands;
     if (needsLight(scene)) {
         const glm::dmat4 pose =
             keyLightCamera(scene, settings).worldFromCamera;  // the light follows its axes
@@ -136,6 +138,8 @@ std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& b
         changed = std::make_shared<Scene>(withBrdf(*base, requireBrdf(model)));
     if (const std::vector<ParameterOverride> values = parametersOf(settings); !values.empty())
         changed = std::make_shared<Scene>(withParameters(changed ? *changed : *base, values));
+    if (const int bands = settings.get("bands").get<int>(); bands != kRgb)
+        changed = std::make_shared<Scene>(withBands(changed ? *changed : *base, bands));
     if (needsLight(*base)) {
         if (!changed) changed = std::make_shared<Scene>(*base);
         addDefaultLight(*changed, keyLightCamera(*base, settings));

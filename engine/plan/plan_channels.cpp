@@ -101,8 +101,14 @@ void Planner::planTangent() {
 
 /// The rows that models read beside their parameters.
 void Planner::planTable() {
+    for (const auto& [what, materials] : scene_.bands)
+        plan_.notes.push_back("Fresnel's equations: " + what + " of wavelength, for " +
+                              plural(materials, "material") + "; exact in each, then summed to linear sRGB");
+    if (scene_.bands.empty())
+        leaveOut("program part", "bands of wavelength",
+                 "no metal is to be evaluated in more than red, green and blue");
     if (scene_.tableRows == 0) {
-        leaveOut("buffer", "table of models", "no model in use reads lobes or measurements");
+        leaveOut("buffer", "table of models", "no model in use reads lobes, measurements or bands");
         return;
     }
     const auto most = static_cast<size_t>(capabilities_.maxTextureBufferTexels);
@@ -111,7 +117,7 @@ void Planner::planTable() {
                            " rows; expected at most " + std::to_string(most) +
                            ", what the driver's buffers hold");
     plan_.notes.push_back("table of models: " + std::to_string(scene_.tableRows) +
-                          " rows of lobes or measurements, " +
+                          " rows of lobes, measurements or bands, " +
                           std::to_string(scene_.tableRows * 16 / 1024) + " KiB");
 }
 

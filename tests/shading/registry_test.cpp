@@ -185,7 +185,9 @@ TEST(GlslFiles, HeadersReadAsTheRegistrysParameters) {
             EXPECT_EQ(declared.choices, registered.choices);
             EXPECT_EQ(declared.unit, registered.unit);
             EXPECT_EQ(rangeText(declared), rangeText(registered));
-            if (header.parameters[i].hasDefault) EXPECT_EQ(declared.defaultValue, registered.defaultValue);
+            if (header.parameters[i].hasDefault) {
+                EXPECT_EQ(declared.defaultValue, registered.defaultValue);
+            }
         }
     }
 }
