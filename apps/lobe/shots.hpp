@@ -25,7 +25,7 @@ struct Shot {
 struct Assignment {
     enum class Kind { set, reset } kind = Kind::set;
     std::string key;
-    std::string value;
+    nlohmann::json value;  ///< text; of settings that take several, all that were given
 };
 
 /// Settings that one place of a batch file gives, and that place's name.

@@ -23,7 +23,8 @@ struct ShaderSource {
 };
 
 /// Reads shader files. `#include "brdf/ward.glsl"` is rooted at the library; each file is taken once. Names
-/// in `generated` are taken before files ("generated/material.glsl").
+/// in `generated` are taken before files ("generated/material.glsl"). No include leads out of the library,
+/// or, in a mounted file, out of the folder of that file.
 class ShaderLibrary {
 public:
     explicit ShaderLibrary(std::filesystem::path root);
@@ -33,8 +34,18 @@ public:
                         const std::map<std::string, std::string>& generated = {}) const;
     const std::filesystem::path& root() const { return root_; }
 
+    /// A file from elsewhere takes the place `name` in the library, with the text that is given. What it
+    /// includes is looked for in its own folder before the library. Messages name it as `file` does.
+    void mount(const std::string& name, const std::filesystem::path& file, const std::string& text);
+
+    struct Mounted {
+        std::filesystem::path file;
+        std::string text;
+    };
+
 private:
     std::filesystem::path root_;
+    std::map<std::string, Mounted> mounted_;
 };
 
 /// A linked program. Move-only.

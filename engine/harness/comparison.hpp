@@ -23,7 +23,8 @@ enum class Axes {
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:
-    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) {}
+    /// Throws UsageError for a model without a twin.
+    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) { requireTwin(brdf); }
 
     /// False if the row fails; message() then says where, with both values and the tolerance. `d` are the
     /// row's directions in the local frame, in double.
