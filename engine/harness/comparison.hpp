@@ -1,8 +1,10 @@
 /// A model's GLSL against its double-precision twin, row by row.
 ///
-/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp). Rows
-/// whose allowance exceeds 10 % say nothing about the formula and only have to be finite and not negative;
-/// rows below 1e-38 have to stay below 1e-30.
+/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp); 4
+/// times the size of the terms over their sum where terms cancel. Rows whose allowance exceeds 10 % say
+/// nothing about the formula and only have to be finite and not negative; other rows below 1e-38 have to stay
+/// below 1e-30. The condition number is computed only where the error exceeds the worst one so far with c =
+/// 0, which leaves every verdict and the worst row as they are.
 #pragma once
 
 #include <string>
@@ -21,13 +23,8 @@ enum class Axes {
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:
-    /// Condition numbers cost about a hundred evaluations of the twin. `whenNeeded` leaves them out for
-    /// values that are nearer to the twin's than the worst known, whatever their condition: all figures stay
-    /// the same but illConditionedShare(), which is then too small.
-    enum class Conditions : uint8_t { always, whenNeeded };
-
-    Comparison(const Brdf& brdf, Axes axes, Conditions conditions = Conditions::always)
-        : brdf_(brdf), axes_(axes), conditions_(conditions) {}
+    /// Throws UsageError for a model without a twin.
+    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) { requireTwin(brdf); }
 
     /// False if the row fails; message() then says where, with both values and the tolerance. `d` are the
     /// row's directions in the local frame, in double.
@@ -36,9 +33,12 @@ public:
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
     double worst() const { return worst_; }  ///< of 16
-    double worstRelative() const { return worstRelative_; }
+    double worstRelative() const { return worstRelative_; }  ///< of the row of worst()
     const std::string& worstRow() const { return worstRow_; }
-    uint64_t worstUlp() const { return worstUlp_; }  ///< of values with a condition number of at most 4
+    /// Of the values whose condition number is at most 4.
+    uint64_t worstUlp() const { return worstUlp_; }
+    /// Share of the values that were not judged: off by more than 16 x 2^-24 x 4 where the allowance exceeds
+    /// 10 %, or of a lobe too narrow to be resolved.
     double illConditionedShare() const {
         return static_cast<double>(illConditioned_) / static_cast<double>(count_);
     }
@@ -49,7 +49,6 @@ private:
 
     const Brdf& brdf_;
     Axes axes_;
-    Conditions conditions_;
     std::string message_;
     size_t count_ = 0;
     size_t illConditioned_ = 0;

@@ -6,61 +6,52 @@
 namespace lobe::harness {
 namespace {
 
-/// Rows with as much work for each thread: neighbours are of one kind, so that every n-th is taken.
-struct Part {
-    Comparison comparison;
-    std::vector<ModelFault> faults;
-};
-
-std::vector<Part> compareParts(const Brdf& brdf, const std::vector<BrdfRow>& rows,
-                               const std::vector<glm::vec3>& got, Comparison::Conditions conditions) {
-    if (!rows.empty()) valuesOf(brdf, rows.front());  // the tables are made once, before there are threads
-    const size_t count =
-        std::clamp<size_t>(rows.size() / 256, 1, std::max(1U, std::thread::hardware_concurrency()));
-    std::vector<Part> parts(count, Part{Comparison(brdf, Axes::local, conditions), {}});
-    const auto work = [&](size_t first) {
-        Part& part = parts[first];
-        for (size_t i = first; i < rows.size(); i += count)
-            if (!part.comparison.check(rows[i], directionsOf(rows[i]), got[i]))
-                part.faults.push_back({i, part.comparison.message()});
-    };
-    std::vector<std::thread> threads;
-    for (size_t first = 1; first < count; ++first)
-        threads.emplace_back(work, first);
-    work(0);
-    for (std::thread& thread : threads)
-        thread.join();
-    return parts;
-}
+/// Fewer rows are not worth a thread.
+constexpr size_t kRowsPerThread = 64;
 
 }  // namespace
 
-ModelComparison compareWithTwin(const Brdf& brdf, const std::vector<BrdfRow>& rows,
-                                const std::vector<glm::vec3>& got) {
-    ModelComparison result;
-    for (Part& part : compareParts(brdf, rows, got, Comparison::Conditions::whenNeeded)) {
-        result.faults.insert(result.faults.end(), part.faults.begin(), part.faults.end());
-        result.values += part.comparison.count();
-        result.worstUlp = std::max(result.worstUlp, part.comparison.worstUlp());
-        if (part.comparison.worst() <= result.worstUnits) continue;
-        result.worstUnits = part.comparison.worst();
-        result.worstRelative = part.comparison.worstRelative();
-        result.worstRow = part.comparison.worstRow();
-    }
-    std::sort(result.faults.begin(), result.faults.end(),
+ModelCheck::ModelCheck(const Brdf& brdf)
+    : brdf_(brdf), parts_(std::max(1U, std::thread::hardware_concurrency()), Comparison(brdf, Axes::local)) {}
+
+void ModelCheck::add(const std::vector<BrdfRow>& rows, const std::vector<glm::vec3>& got) {
+    if (!rows.empty()) valuesOf(brdf_, rows.front());  // the tables are made once, before there are threads
+    const size_t count = std::clamp<size_t>(rows.size() / kRowsPerThread, 1, parts_.size());
+    std::vector<std::vector<ModelFault>> faults(count);
+    // Neighbours are of one kind, so that each thread takes every n-th.
+    const auto work = [&](size_t part) {
+        for (size_t i = part; i < rows.size(); i += count)
+            if (!parts_[part].check(rows[i], directionsOf(rows[i]), got[i]))
+                faults[part].push_back({rows_ + i, parts_[part].message()});
+    };
+    std::vector<std::jthread> threads;
+    for (size_t part = 1; part < count; ++part)
+        threads.emplace_back(work, part);
+    work(0);
+    threads.clear();
+    const auto known = static_cast<std::ptrdiff_t>(faults_.size());
+    for (const std::vector<ModelFault>& found : faults)
+        faults_.insert(faults_.end(), found.begin(), found.end());
+    std::sort(faults_.begin() + known, faults_.end(),
               [](const ModelFault& a, const ModelFault& b) { return a.row < b.row; });
-    return result;
+    rows_ += rows.size();
 }
 
-double illConditionedShare(const Brdf& brdf, const std::vector<BrdfRow>& rows,
-                           const std::vector<glm::vec3>& got) {
-    double bad = 0.0;
-    double all = 0.0;
-    for (const Part& part : compareParts(brdf, rows, got, Comparison::Conditions::always)) {
-        bad += part.comparison.illConditionedShare() * double(part.comparison.count());
-        all += double(part.comparison.count());
+ModelFigures ModelCheck::figures() const {
+    ModelFigures figures;
+    double ill = 0.0;
+    for (const Comparison& part : parts_) {
+        if (part.count() == 0) continue;
+        figures.values += part.count();
+        ill += part.illConditionedShare() * double(part.count());
+        figures.worstUlp = std::max(figures.worstUlp, part.worstUlp());
+        if (part.worst() <= figures.worstUnits) continue;
+        figures.worstUnits = part.worst();
+        figures.worstRelative = part.worstRelative();
+        figures.worstRow = part.worstRow();
     }
-    return all > 0.0 ? bad / all : 0.0;
+    if (figures.values > 0) figures.illConditionedShare = ill / double(figures.values);
+    return figures;
 }
 
 }  // namespace lobe::harness

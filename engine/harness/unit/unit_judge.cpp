@@ -23,7 +23,9 @@ std::vector<bool> twinFaultsOf(const TestCase& test, const UnitRows& rows, const
         got.emplace_back(realOf(value[0]), realOf(value[1]), realOf(value[2]));
     }
     std::vector<bool> faults(rows.count, false);
-    for (const ModelFault& fault : compareWithTwin(*test.model, table, got).faults)
+    ModelCheck check(*test.model);
+    check.add(table, got);
+    for (const ModelFault& fault : check.faults())
         faults[fault.row] = true;
     return faults;
 }

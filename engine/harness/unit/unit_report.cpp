@@ -3,7 +3,7 @@
 #include <array>
 #include <sstream>
 
-#include "harness/model_check.hpp"
+#include "harness/comparison.hpp"
 
 namespace lobe::harness {
 namespace {
@@ -46,10 +46,10 @@ std::string twinMessage(const TestCase& test, const Evaluation& evaluation) {
     const auto value = evaluation.result().value(3);
     const glm::vec3 got(realOf(value[0]), realOf(value[1]), realOf(value[2]));
     const BrdfRow row = brdfRowOf(test, evaluation.row.words);
-    const auto faults = compareWithTwin(*test.model, {row}, {got}).faults;
-    if (faults.empty()) return "";
-    const size_t channel = faults[0].message.find("channel");
-    return faults[0].message.substr(std::min(channel, faults[0].message.size()));
+    Comparison comparison(*test.model, Axes::local);
+    if (comparison.check(row, directionsOf(row), got)) return "";
+    const std::string& message = comparison.message();
+    return message.substr(std::min(message.find("channel"), message.size()));
 }
 
 void describeExpectation(const TestCase& test, const Evaluation& evaluation, const Fault& fault,
