@@ -1,8 +1,10 @@
 /// A model's GLSL against its double-precision twin, row by row.
 ///
-/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp). Rows
-/// whose allowance exceeds 10 % say nothing about the formula and only have to be finite and not negative;
-/// rows below 1e-38 have to stay below 1e-30.
+/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp); 4
+/// times the size of the terms over their sum where terms cancel. Rows whose allowance exceeds 10 % say
+/// nothing about the formula and only have to be finite and not negative; other rows below 1e-38 have to stay
+/// below 1e-30. The condition number is computed only where the error exceeds the worst one so far with c =
+/// 0, which leaves every verdict and the worst row as they are.
 #pragma once
 
 #include <string>
@@ -30,6 +32,8 @@ public:
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
     double worst() const { return worst_; }  ///< of 16
+    /// Share of the values that were not judged: off by more than 16 x 2^-24 x 4 where the allowance exceeds
+    /// 10 %, or of a lobe too narrow to be resolved.
     double illConditionedShare() const {
         return static_cast<double>(illConditioned_) / static_cast<double>(count_);
     }

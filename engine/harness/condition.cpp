@@ -31,6 +31,13 @@ glm::dvec3 gradientLength(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::sqrt(a * a + b * b);
 }
 
+/// By what a parameter's rounding is a share of: itself, or its distance from 1 where its range ends there.
+double roundedSize(const Parameter& parameter, double value) {
+    if (parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::table) return 0.0;
+    const double size = std::abs(value);
+    return parameter.maximum == 1.0 ? std::min(size, 1.0 - value) : size;
+}
+
 }  // namespace
 
 Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values) {
@@ -38,6 +45,11 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
     const glm::dvec3 f = brdf.fCos(d, values);
     if (f == glm::dvec3(0.0)) return condition;
 
+    if (brdf.termSizes) {
+        const glm::dvec3 sizes = brdf.termSizes(d, values);
+        for (int c = 0; c < 3; ++c)
+            if (f[c] > 0.0) condition.terms[c] = std::max(sizes[c] / f[c], 1.0);
+    }
     for (int k = 0; k < 3; ++k) {
         const auto scaled = [k](glm::dvec3 w, double by) {
             w[k] *= 1.0 + by;
@@ -88,15 +100,12 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
     size_t offset = 0;
     for (const Parameter& parameter : brdf.parameters) {
         for (int c = 0; c < parameter.components(); ++c, ++offset) {
-            const double fromEnd =
-                std::min(values[offset] - parameter.minimum, parameter.maximum - values[offset]);
-            if (parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::table ||
-                fromEnd <= 0.0)
-                continue;
+            const double size = roundedSize(parameter, values[offset]);
+            if (size <= 0.0) continue;
             ParameterValues changed(values.begin(), values.end());
             condition.parameters += relativeSlope(
                 [&](double by) {
-                    changed[offset] = values[offset] + by * fromEnd;
+                    changed[offset] = values[offset] + by * size;
                     return brdf.fCos(d, changed);
                 },
                 kStep, f);

@@ -19,9 +19,12 @@ struct Condition {
     /// vector takes part, and the direction itself where the model says so (BrdfTraits::anglesOnly): what
     /// unit vectors that are unit only to float rounding cost.
     glm::dvec3 length{0.0};
-    /// sum over the parameters p of |q df/dp| / f, q the distance of p from the nearer end of its range: 1 -
-    /// p is exact in floats where p is near 1.
+    /// sum over the parameters p of |q df/dp| / f, q = |p|, or 1 - p where that is smaller and the range ends
+    /// at 1: 1 - p is exact in floats where p is near 1.
     glm::dvec3 parameters{0.0};
+    /// (sum of the absolute values of the terms) / f, at least 1: what the roundings of terms that cancel
+    /// cost.
+    glm::dvec3 terms{1.0};
 };
 
 Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values);

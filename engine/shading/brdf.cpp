@@ -82,6 +82,12 @@ ParameterValues Brdf::defaults() const {
     return values;
 }
 
+const BrdfPreset* Brdf::findPreset(std::string_view presetName) const {
+    const auto found = std::find_if(presets.begin(), presets.end(),
+                                    [&](const BrdfPreset& preset) { return preset.name == presetName; });
+    return found == presets.end() ? nullptr : &*found;
+}
+
 int Brdf::tableParameter() const {
     const auto found = std::find_if(parameters.begin(), parameters.end(),
                                     [](const Parameter& p) { return p.kind == ParameterKind::table; });

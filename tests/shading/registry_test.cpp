@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 
+#include "albedo.hpp"
 #include "base/error.hpp"
 #include "base/resources.hpp"
 #include "gl/context.hpp"
@@ -90,6 +91,32 @@ TEST(Registry, EveryEntryIsComplete) {
         EXPECT_EQ(brdf.table.has_value(), brdf.tableParameter() >= 0);
         EXPECT_NO_THROW(validateParameters(brdf, brdf.defaults(), "defaults"));
     }
+}
+
+TEST(Registry, PresetsAreValidAndNameTheirSource) {
+    size_t count = 0;
+    for (const Brdf& brdf : allBrdfs()) {
+        std::set<std::string> names;
+        for (const BrdfPreset& preset : brdf.presets) {
+            SCOPED_TRACE(brdf.name + ": " + preset.name);
+            EXPECT_TRUE(names.insert(preset.name).second);
+            EXPECT_FALSE(preset.source.empty());
+            EXPECT_EQ(layoutError(brdf, preset.values), "");
+            EXPECT_NO_THROW(validateParameters(brdf, preset.values, preset.name));
+            EXPECT_EQ(brdf.findPreset(preset.name), &preset);
+            ++count;
+        }
+        EXPECT_EQ(brdf.findPreset("no such surface"), nullptr);
+    }
+    EXPECT_GE(count, 28U);
+    EXPECT_EQ(requireBrdf("ward_anisotropic").presets.size(), 10U);
+}
+
+TEST(Registry, PresetsOfLafortuneKeepThePublishedAlbedo) {
+    // Ngan et al.: k_d and k_s of a lobe that is normalised at normal incidence.
+    const Brdf& brdf = requireBrdf("lafortune");
+    const ParameterValues& steel = brdf.findPreset("steel")->values;
+    EXPECT_NEAR(test::albedo(brdf, steel, 1.0).value, 0.0157 + 0.0644, 1e-5);
 }
 
 TEST(Registry, ParametersOfTheSceneFormat) {

@@ -4,11 +4,16 @@
 #include <glm/gtc/constants.hpp>
 
 #include "shading/fresnel.hpp"
+#include "shading/he_surfaces.hpp"
+#include "shading/metals.hpp"
 
 namespace lobe::brdf_entry {
 namespace {
 
 const double kPi = glm::pi<double>();
+
+/// Wavelengths of red, green and blue.
+const glm::dvec3 kBands(645e-9, 526e-9, 444e-9);
 
 struct HeValues {
     glm::dvec3 diffuse;
@@ -137,6 +142,29 @@ Parameter length(std::string name, double defaultValue, double minimum, std::pai
     return parameter;
 }
 
+std::vector<BrdfPreset> presets() {
+    using shading::FresnelType;
+    std::vector<BrdfPreset> presets;
+    for (const shading::HeSurface& surface : shading::heSurfaces()) {
+        ParameterValues values{0.0, 0.0, 0.0, surface.sigma, surface.tau};
+        const auto append = [&](const glm::dvec3& rgb) {
+            values.insert(values.end(), {rgb.r, rgb.g, rgb.b});
+        };
+        append(surface.wavelength > 0.0 ? glm::dvec3(surface.wavelength) : kBands);
+        const auto& metals = shading::metals();
+        const auto metal = std::find_if(metals.begin(), metals.end(), [&](const shading::Metal& known) {
+            return known.name == surface.metal;
+        });
+        const bool conductor = metal != metals.end();
+        values.push_back(static_cast<double>(conductor ? FresnelType::conductor : FresnelType::dielectric));
+        append(glm::dvec3(shading::kDielectricF0));
+        append(conductor ? metal->eta : glm::dvec3(surface.eta));
+        append(conductor ? metal->k : glm::dvec3(0.0));
+        presets.push_back({surface.name, surface.source, std::move(values)});
+    }
+    return presets;
+}
+
 }  // namespace
 
 Brdf he() {
@@ -147,7 +175,7 @@ Brdf he() {
     brdf.source = "X. D. He et al., A comprehensive physical model for light reflection, SIGGRAPH 1991";
     Parameter wavelength = length("wavelength", 0.0, 1e-9, {4e-7, 7e-7}, "of the red, green and blue band");
     wavelength.kind = ParameterKind::rgb;
-    wavelength.defaultValue = {645e-9, 526e-9, 444e-9};
+    wavelength.defaultValue = kBands;
     wavelength.mayBeTextured = false;
     brdf.parameters = {colorParameter("diffuse", glm::dvec3(0.0), "a: uniform-diffuse reflectance"),
                        length("sigma", 2e-7, 0.0, {1e-8, 2e-6}, "RMS height of the surface"),
@@ -155,6 +183,7 @@ Brdf he() {
                        wavelength};
     for (Parameter& parameter : fresnelParameters())
         brdf.parameters.push_back(std::move(parameter));
+    brdf.presets = presets();
     // 4 % over at some angles even without the uniform-diffuse part, which nothing bounds.
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "diffuse";
@@ -170,7 +199,7 @@ Brdf he() {
         const double sigma = 1e-6;
         const double slope = std::max(surface.roughness * surface.roughness, 1e-3);
         ParameterValues values{diffuse.r,           diffuse.g, diffuse.b, sigma,
-                               2.0 * sigma / slope, 645e-9,    526e-9,    444e-9};
+                               2.0 * sigma / slope, kBands.r,  kBands.g,  kBands.b};
         const std::vector<double> fresnel = fresnelFromMetallicRoughness(surface);
         values.insert(values.end(), fresnel.begin(), fresnel.end());
         return values;

@@ -36,6 +36,7 @@ Brdf phong() {
     // "classic" is neither; "energy" is reciprocal, and conserving where diffuse + specular <= 1.
     brdf.traits.reciprocal = false;
     brdf.traits.energyConserving = false;
+    brdf.traits.halfVectorLobe = false;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
     brdf.ambient = phongAmbient;

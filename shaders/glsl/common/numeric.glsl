@@ -27,6 +27,13 @@ float numeric_log(float x)
 /// ln(1 + x) for x > -1.
 float numeric_log1p(float x) { return abs(x) < 0.3 ? numeric_two_atanh(x / (2.0 + x)) : numeric_log(1.0 + x); }
 
+/// ln(1 + x) / x for 0 <= x < 1e37; 1 at 0.
+float numeric_log1p_ratio(float x)
+{
+    float y = max(x, 1e-37);
+    return numeric_log1p(y) / y;
+}
+
 /// e^x; exactly 0 below -87, e^88 above 88.
 float numeric_exp(float x)
 {
@@ -35,6 +42,17 @@ float numeric_exp(float x)
     float r = (y - k * 0.693359375) + k * 2.12194440e-4;  // |r| <= ln(2) / 2
     float p = 1.0 + r * (1.0 + r * (0.5 + r * (1.0 / 6.0 + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r / 5040.0))))));
     return x < -87.0 ? 0.0 : p * intBitsToFloat((int(k) + 127) << 23);
+}
+
+/// scale e^x for x <= 0, also where e^x alone is too small for a float; exactly 0 below -174.
+float numeric_exp_times(float x, float scale)
+{
+    float y = max(x, -174.0);
+    float k = floor(y * 1.44269504 + 0.5);
+    float r = (y - k * 0.693359375) + k * 2.12194440e-4;
+    int half_k = int(k) / 2;
+    float head = scale * intBitsToFloat((half_k + 127) << 23);
+    return x < -174.0 ? 0.0 : numeric_exp(r) * head * intBitsToFloat((int(k) - half_k + 127) << 23);
 }
 
 /// x^y for x > 0: relative error 5e-7 (1 + |y ln x|).
