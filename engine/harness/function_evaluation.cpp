@@ -22,6 +22,9 @@ int floatsOf(GlslScalar scalar) {
     return scalar == GlslScalar::integer || scalar == GlslScalar::unsignedInteger ? 2 : 1;
 }
 
+/// Before the names of their parameters.
+constexpr const char* kArgument = "lobe_arg_";
+
 struct Input {
     GlslLeaf leaf;
     size_t column = 0;
@@ -103,16 +106,21 @@ std::pair<GlslFunction, std::vector<Input>> choose(const GlslDeclarations& decla
     throw InputError(header.name + ":1: the columns fit none of " + all);
 }
 
+struct Output {
+    GlslLeaf leaf;
+    std::string variable;  ///< of ours that holds it
+};
+
 /// The function's numbers that come back: its result, then its `out` parameters.
-std::vector<GlslLeaf> outputsOf(const GlslDeclarations& declarations, const GlslFunction& function) {
-    std::vector<GlslLeaf> outputs;
-    const auto append = [&](const std::string& type, const std::string& path) {
-        const auto leaves = leavesOf(declarations, type, path);
-        outputs.insert(outputs.end(), leaves.begin(), leaves.end());
+std::vector<Output> outputsOf(const GlslDeclarations& declarations, const GlslFunction& function) {
+    std::vector<Output> outputs;
+    const auto append = [&](const std::string& type, const std::string& path, const std::string& prefix) {
+        for (const GlslLeaf& leaf : leavesOf(declarations, type, path))
+            outputs.push_back({leaf, prefix + leaf.path});
     };
-    if (function.result != "void") append(function.result, "result");
+    if (function.result != "void") append(function.result, "result", "lobe_");
     for (const GlslVariable& parameter : function.parameters)
-        if (parameter.out) append(parameter.type, parameter.name);
+        if (parameter.out) append(parameter.type, parameter.name, kArgument);
     if (outputs.empty()) throw InputError(describe(function) + " returns nothing");
     return outputs;
 }
@@ -154,13 +162,14 @@ std::vector<std::string> toFloats(GlslScalar scalar, const std::string& value) {
 
 /// A function of ours between the evaluator's main() and theirs, so that no name of ours hides one of theirs.
 Snippet snippetFor(const std::string& file, const GlslFunction& function, const std::vector<Input>& inputs,
-                   const std::vector<GlslLeaf>& outputs) {
+                   const std::vector<Output>& outputs) {
     Snippet snippet;
     snippet.name = "eval_" + function.name;
     size_t floats = 0;
     std::string parameters, arguments, locals, call, assignments, collected;
     for (const Input& input : inputs) {
-        assignments += "    lobe_" + input.leaf.path + " = " + fromFloats(input.leaf.scalar, floats) + ";\n";
+        assignments += std::string("    ") + kArgument + input.leaf.path + " = " +
+                       fromFloats(input.leaf.scalar, floats) + ";\n";
         for (int i = 0; i < floatsOf(input.leaf.scalar); ++i, ++floats) {
             snippet.inputs.push_back({"float", inputName(floats)});
             parameters += "float " + inputName(floats) + ", ";
@@ -169,14 +178,14 @@ Snippet snippetFor(const std::string& file, const GlslFunction& function, const 
     }
     if (snippet.inputs.empty()) snippet.inputs.push_back({"float", "lobe_unused"});
     for (const GlslVariable& parameter : function.parameters) {
-        locals += "    " + parameter.type + " lobe_" + parameter.name + ";\n";
-        call += (call.empty() ? "lobe_" : ", lobe_") + parameter.name;
+        locals += "    " + parameter.type + " " + kArgument + parameter.name + ";\n";
+        call += (call.empty() ? "" : ", ") + (kArgument + parameter.name);
     }
     call = function.name + "(" + call + ");\n";
     if (function.result != "void") call = function.result + " lobe_result = " + call;
     size_t results = 0;
-    for (const GlslLeaf& output : outputs)
-        for (const std::string& value : toFloats(output.scalar, "lobe_" + output.path))
+    for (const Output& output : outputs)
+        for (const std::string& value : toFloats(output.leaf.scalar, output.variable))
             collected += "    lobe_out[" + std::to_string(results++) + "] = " + value + ";\n";
     if (results > kMostFloats)
         throw InputError(describe(function) + " returns " + std::to_string(results) +
@@ -199,7 +208,7 @@ Snippet snippetFor(const std::string& file, const GlslFunction& function, const 
 /// A function, what it reads and returns, and the shader for it.
 struct Plan {
     std::vector<Input> inputs;
-    std::vector<GlslLeaf> outputs;
+    std::vector<Output> outputs;
     Snippet snippet;
 
     Plan(const gl::ShaderLibrary& library, const std::string& path, const std::string& file,
@@ -222,8 +231,8 @@ public:
 
     std::vector<std::string> resultColumns() const override {
         std::vector<std::string> names;
-        for (const GlslLeaf& output : plan_.outputs)
-            names.push_back(output.path);
+        for (const Output& output : plan_.outputs)
+            names.push_back(output.leaf.path);
         return names;
     }
 
@@ -277,16 +286,16 @@ private:
     std::string line(std::span<const float> results) const {
         std::string text;
         size_t at = 0;
-        for (const GlslLeaf& output : plan_.outputs) {
+        for (const Output& output : plan_.outputs) {
             if (!text.empty()) text += ',';
-            if (output.scalar == GlslScalar::floating)
+            if (output.leaf.scalar == GlslScalar::floating)
                 text += numberText(double{results[at]});
-            else if (output.scalar == GlslScalar::boolean)
+            else if (output.leaf.scalar == GlslScalar::boolean)
                 text += results[at] != 0.0f ? "1" : "0";
             else
                 text += std::to_string(static_cast<int64_t>(results[at]) * 65536 +
                                        static_cast<int64_t>(results[at + 1]));
-            at += static_cast<size_t>(floatsOf(output.scalar));
+            at += static_cast<size_t>(floatsOf(output.leaf.scalar));
         }
         return text;
     }

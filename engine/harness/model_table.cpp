@@ -81,6 +81,13 @@ struct ParameterSource {
     Channels columns;
 };
 
+/// An end of the range that was a float meanwhile is that end.
+double withBounds(const Parameter& parameter, double value) {
+    for (const double bound : {parameter.minimum, parameter.maximum})
+        if (static_cast<float>(value) == static_cast<float>(bound)) return bound;
+    return value;
+}
+
 std::string numbered(const std::string& name, size_t i) {
     return name + std::to_string(i);
 }
@@ -149,8 +156,11 @@ struct ModelColumns::State {
         if (largest == 0.0)
             throw InputError(place(row, components.at[0]) +
                              ": a direction of length 0; expected one of length 1");
-        const glm::dvec3 scaled = w / largest;  // neither overflows nor vanishes when squared
-        length = largest * glm::length(scaled);
+        // By a power of two, which rounds nothing; then squares neither overflow nor vanish.
+        const int exponent = std::ilogb(largest);
+        const glm::dvec3 scaled(std::ldexp(w.x, -exponent), std::ldexp(w.y, -exponent),
+                                std::ldexp(w.z, -exponent));
+        length = std::ldexp(glm::length(scaled), exponent);
         return glm::normalize(scaled);
     }
 
@@ -169,7 +179,7 @@ struct ModelColumns::State {
             *out = static_cast<double>(found - parameter.choices.begin());
         } else {
             for (int c = 0; c < parameter.components(); ++c)
-                out[c] = number(row, source.columns.at[static_cast<size_t>(c)]);
+                out[c] = withBounds(parameter, number(row, source.columns.at[static_cast<size_t>(c)]));
         }
     }
 
@@ -205,8 +215,24 @@ struct ModelColumns::State {
                              : static_cast<double>(found - parameter.choices.begin());
     }
 
-    /// Only ratios of lengths count; a power of two keeps them to the last bit.
+    template<typename Function>
+    void forEachLength(const Function& function) {
+        for (const ParameterSource& source : sources) {
+            const Parameter& parameter = brdf.parameters[source.parameter];
+            for (int c = 0; parameter.unit == "m" && c < parameter.components(); ++c)
+                function(parameter, values[source.offset + static_cast<size_t>(c)]);
+        }
+    }
+
+    /// Only ratios of lengths count. Those outside the registry's range, as nanometres are, become metres of
+    /// visible light; a power of two keeps them to the last bit.
     void scaleLengths(const CsvRow& row) {
+        lengthScale = 1.0;
+        bool asTheyAre = true;
+        forEachLength([&](const Parameter& parameter, double value) {
+            asTheyAre = asTheyAre && value >= parameter.minimum && value <= parameter.maximum;
+        });
+        if (asTheyAre) return;
         const auto at = static_cast<size_t>(brdf.valueOffset(brdf.parameterIndex("wavelength")));
         const double longest = std::max({values[at], values[at + 1], values[at + 2]});
         if (!(longest > 0.0 && std::isfinite(longest)))
@@ -214,11 +240,7 @@ struct ModelColumns::State {
                              "; expected above 0");
         constexpr double kVisible = 5e-7;
         lengthScale = std::exp2(std::round(std::log2(kVisible / longest)));
-        for (const ParameterSource& source : sources) {
-            const Parameter& parameter = brdf.parameters[source.parameter];
-            for (int c = 0; parameter.unit == "m" && c < parameter.components(); ++c)
-                values[source.offset + static_cast<size_t>(c)] *= lengthScale;
-        }
+        forEachLength([&](const Parameter&, double& value) { value *= lengthScale; });
     }
 
     void validate(const CsvRow& row) const {

@@ -9,7 +9,9 @@
 /// alone dielectric; cells of these may be empty where rows differ, and so may all cells of an element that a
 /// row does not have. Columns left out have the registry's default.
 ///
-/// Lengths (unit m in the registry) are in any one unit where there is a column `wavelength`.
+/// An end of a parameter's range that has been rounded to a float counts as that end.
+/// Lengths (unit m in the registry) are in any one unit where there is a column `wavelength`: only their
+/// ratios count.
 #pragma once
 
 #include <functional>
