@@ -13,7 +13,7 @@ int run(const std::vector<std::string>& arguments) {
         return 0;
     }
     const std::vector<std::string> rest(arguments.begin() + (arguments.empty() ? 0 : 1), arguments.end());
-    // if (first == "eval") return lobe::app::evalCommand(rest);
+    if (first == "eval") return lobe::app::evalCommand(rest);
     if (first == "models") return lobe::app::modelsCommand(rest);
     return lobe::app::testCommand(arguments);
 }
