@@ -24,6 +24,7 @@ constexpr const char* kUsage =
     "usage: lobe COMMAND [OPTION...]\n"
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
+    "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
     "  info                                 OpenGL contexts that can be made here\n"
     "  help [COMMAND]                       every setting, or a command's options\n"
     "  --version                            versions\n"
@@ -52,6 +53,7 @@ void openStandardStreams() {
 int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {{"render", lobe::app::renderCommand},
                                                             {"plan", lobe::app::planCommand},
+                                                            {"plot", lobe::app::plotCommand},
                                                             {"info", lobe::app::infoCommand},
                                                             {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];

@@ -10,14 +10,8 @@
 namespace lobe::harness {
 namespace {
 
-constexpr double kFactor = 16.0;
-
 /// A power below e^-87 is 0 before it is multiplied by a lobe's scale, at most (1e6 + 2) / (2 pi).
 constexpr double kUnderflow = 3e-33;
-
-/// Lobes that one rounding of a direction takes across this share of their width can't be followed by
-/// differences.
-constexpr double kNarrowest = 0.03;
 
 /// Beyond this a float is near its end: such values only have to be large and finite.
 constexpr double kLargest = 1e37;
@@ -41,14 +35,18 @@ std::string describe(const BrdfRow& row) {
     return text.str();
 }
 
+glm::dvec3 roundingUnit(const Brdf& brdf, const Directions& d, std::span<const double> values, Axes axes) {
+    const Condition condition = conditionOf(brdf, d, values);
+    const glm::dvec3 directions = axes == Axes::local ? condition.componentwise : condition.angular;
+    return kFloatRounding * (4.0 + directions + condition.length + condition.parameters);
+}
+
 bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3& got) {
     const ParameterValues values = valuesOf(brdf_, row);
     const glm::dvec3 exact = brdf_.fCos(d, values);
-    const Condition condition = conditionOf(brdf_, d, values);
-    const glm::dvec3 directions = axes_ == Axes::local ? condition.componentwise : condition.angular;
-    const glm::dvec3 unit = kFloatRounding * (4.0 + directions + condition.length + condition.parameters);
-    const glm::dvec3 allowance = kFactor * unit;
-    const bool unresolved = brdf_.lobeSharpness(values) * kFloatRounding > kNarrowest;
+    const glm::dvec3 unit = roundingUnit(brdf_, d, values, axes_);
+    const glm::dvec3 allowance = kAllowedUnits * unit;
+    const bool unresolved = brdf_.lobeSharpness(values) * kFloatRounding > kNarrowestInRoundings;
     for (int c = 0; c < 3; ++c) {
         ++count_;
         const double value = double(got[c]);
@@ -66,7 +64,7 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
                 return fail(row, c, value, "about " + digits(kLargest, 1) + " or more");
             continue;
         }
-        if (allowance[c] > 0.1) {
+        if (allowance[c] > kLargestAllowance) {
             ++illConditioned_;
             continue;
         }

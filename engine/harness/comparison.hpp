@@ -18,6 +18,15 @@ enum class Axes {
     world   ///< in other axes: rounding turns them
 };
 
+/// 2^-24 (4 + c) of a row, channel by channel, of which kAllowedUnits are allowed.
+glm::dvec3 roundingUnit(const Brdf& brdf, const Directions& d, std::span<const double> values, Axes axes);
+inline constexpr double kAllowedUnits = 16.0;
+/// Relative allowance above which a row says nothing about the formula.
+inline constexpr double kLargestAllowance = 0.1;
+/// Lobes that one rounding of a direction takes across this share of their width can't be followed by
+/// differences.
+inline constexpr double kNarrowestInRoundings = 0.03;
+
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:

@@ -1,21 +1,15 @@
 #include "shading/fresnel.hpp"
 
 #include <cmath>
-#include <complex>
 
 namespace lobe::shading {
 namespace {
 
 using Complex = std::complex<double>;
 
-/// Amplitudes of both polarisations from Snell's law with a complex index; unpolarised light has the mean of
-/// their squares.
 double exact(Complex index, double cosTheta) {
-    const double sin2 = (1.0 - cosTheta) * (1.0 + cosTheta);
-    const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
-    const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
-    const Complex p = (index * cosTheta - transmitted) / (index * cosTheta + transmitted);
-    return 0.5 * (std::norm(s) + std::norm(p));
+    const auto [s, p] = polarisedReflectance(index, cosTheta);
+    return 0.5 * (s + p);
 }
 
 double schlick(double f0, double cosTheta) {
@@ -23,6 +17,14 @@ double schlick(double f0, double cosTheta) {
 }
 
 }  // namespace
+
+PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta) {
+    const double sin2 = (1.0 - cosTheta) * (1.0 + cosTheta);
+    const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
+    const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
+    const Complex p = (index * cosTheta - transmitted) / (index * cosTheta + transmitted);
+    return {std::norm(s), std::norm(p)};
+}
 
 std::vector<Parameter> fresnelParameters() {
     std::vector<Parameter> parameters{

@@ -1,6 +1,7 @@
 /// Reflectance of a smooth interface for unpolarised light, and the four parameters by which models name it.
 #pragma once
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,13 @@ inline constexpr size_t kFresnelValues = 10;
 /// Reflectance at cos(theta) in 0..1 for the ten values of fresnelParameters(). Exact equations (Born and
 /// Wolf, Principles of Optics) with complex index eta + i k; Schlick, Computer Graphics Forum 13(3), 1994.
 glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta);
+
+/// Squared amplitudes from Snell's law with the complex index eta + i k, perpendicular (s) and parallel (p)
+/// to the plane of incidence; unpolarised light has their mean.
+struct PolarisedReflectance {
+    double s, p;
+};
+PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta);
 
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);
