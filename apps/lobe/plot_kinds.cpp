@@ -268,7 +268,8 @@ PlotKind errorKind() {
                     static_cast<plot::ErrorMeasure>(choiceOf("--show", options.show, {"ulp", "share"}));
                 const Sweep sweep = sweepOf(model, options.over, options.range, stepsOf(options, 32));
                 const plot::ErrorRequest request{model, sweep.over, sweep.values,
-                                                 plot::linearSteps(0.0, 89.0, 45), azimuthOf(options)};
+                                                 plot::linearSteps(0.0, kSteepestAngle, 45),
+                                                 azimuthOf(options)};
                 return plot::draw(plot::computeErrorMap(sampler, request), measure);
             }};
 }

@@ -142,8 +142,10 @@ Sweep sweepOf(const plot::Model& model, const std::string& over, const std::stri
         low = ends[0];
         high = ends[1];
     }
-    sweep.values = low > 0.0 && high / low >= 10.0 ? plot::geometricSteps(low, high, steps)
-                                                   : plot::linearSteps(low, high, steps);
+    sweep.values = plot::isWide(low, high) ? plot::geometricSteps(low, high, steps)
+                                           : plot::linearSteps(low, high, steps);
+    for (size_t i = 1; i + 1 < sweep.values.size(); ++i)
+        sweep.values[i] = plot::rounded(sweep.values[i], 3);  // off by 0.5 % at most, and easier to read
     for (double end : {low, high})
         plot::withParameter(model, sweep.over, end);  // refuses what is out of range before long work
     return sweep;

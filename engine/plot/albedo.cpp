@@ -1,5 +1,8 @@
 #include "plot/albedo.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "math/quadrature.hpp"
 #include "plot/geometry.hpp"
 
@@ -7,14 +10,15 @@ namespace lobe::plot {
 namespace {
 
 constexpr int kOrder = 6;
-constexpr int kAzimuthPanels = 8;
 constexpr int kPolarPanels = 16;
 
 /// Visits the nodes of the hemisphere about the mirrored direction in a fixed order.
 double integrate(const std::function<double(const glm::dvec3&)>& f, const glm::dvec3& axis,
                  const std::vector<double>& breaks) {
     static const QuadratureRule rule = gaussLegendre(kOrder);
-    return integrateHemisphere(f, axis, breaks, kAzimuthPanels, rule);
+    // A lobe of half vectors is narrower across the plane of incidence than along it, by cos(theta).
+    const int azimuthPanels = std::clamp(static_cast<int>(std::ceil(4.0 / axis.z)), 8, 96);
+    return integrateHemisphere(f, axis, breaks, azimuthPanels, rule);
 }
 
 }  // namespace

@@ -48,8 +48,9 @@ std::string curveCommands(const Albedo& albedo, double top) {
     }
     return text +
            "set lmargin at screen 0.085\nset rmargin at screen 0.8\n"
-           "set bmargin at screen bottom + 60 * pixel\nset tmargin at screen top - 10 * pixel\n"
-           "set key at screen 0.99, top top right Right samplen 2\nset xrange [0:90]\nset xtics 0,15,90\n"
+           "set bmargin at screen bottom + 64 * pixel\nset tmargin at screen top - 10 * pixel\n"
+           "set key at screen 0.99, top top right Left reverse samplen 2\nset xrange [0:90]\nset xtics "
+           "0,15,90\n"
            "set yrange [0:" +
            numberText(top) +
            "]\nset grid linetype 1 linewidth 0.5 linecolor rgb \"#dddddd\"\n"

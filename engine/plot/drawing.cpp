@@ -13,7 +13,7 @@ constexpr double kTextSize = 14.0;  // pixels on a canvas of the drawing's own s
 constexpr double kTitleSize = 18.0;
 constexpr double kCaptionSize = 12.0;
 constexpr double kLineSpacing = 1.4;
-constexpr double kMeanLetterWidth = 0.56;  // of the size, for sans-serif
+constexpr double kMeanLetterWidth = 0.52;  // of the size, for sans-serif
 
 /// Cairo's sizes are in points of 1/72 inch, at 96 pixels an inch.
 constexpr double kPngTextScale = 0.75;
@@ -48,7 +48,7 @@ std::string terminal(Format format, int width, int height, double scale) {
     return std::string("set terminal ") + (png ? "pngcairo" : "svg") + " size " + size +
            " enhanced font \"sans-serif," + numberText(kTextSize) + "\" fontscale " +
            numberText(scale * (png ? kPngTextScale : 1.0)) + " linewidth " + numberText(scale) +
-           " rounded background \"#ffffff\"\n";
+           " butt background \"#ffffff\"\n";
 }
 
 }  // namespace

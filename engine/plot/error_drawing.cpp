@@ -2,15 +2,11 @@
 #include <cmath>
 
 #include "plot/drawing.hpp"
+#include "plot/geometry.hpp"
 #include "plot/style.hpp"
 
 namespace lobe::plot {
 namespace {
-
-std::string rounded(double value) {
-    const double power = std::pow(10.0, 2.0 - std::floor(std::log10(std::max(value, 1e-3))));
-    return shortNumber(std::round(value * power) / power);
-}
 
 Table tableOf(const ErrorMap& map) {
     const std::string over = axisName(map.request.model, map.request.over);
@@ -38,8 +34,8 @@ Drawing draw(const ErrorMap& map, ErrorMeasure measure) {
     drawing.caption = {
         describe(request.model) + (request.over.empty() ? "" : "; " + request.over + " as shown"),
         "Worst of " + std::to_string(kErrorViews) + " views and three channels in each cell. Largest: " +
-            rounded(map.worstUlp.ulp) + " ulp" + placeOf(map, map.worstUlp) +
-            "; of what the rounding of inputs allows: " + rounded(map.worstShare.share) +
+            shortNumber(rounded(map.worstUlp.ulp, 3)) + " ulp" + placeOf(map, map.worstUlp) +
+            "; of what the rounding of inputs allows: " + shortNumber(rounded(map.worstShare.share, 3)) +
             placeOf(map, map.worstShare)};
     HeatMap heat{"angle of incidence [°]",
                  axisName(request.model, request.over),

@@ -9,8 +9,7 @@
 namespace lobe::plot {
 namespace {
 
-/// Four decimals.
-std::string rounded(double value) {
+std::string fourDecimals(double value) {
     return shortNumber(std::round(value * 1e4) / 1e4);
 }
 
@@ -31,9 +30,9 @@ Table tableOf(const FresnelCurves& curves) {
 std::string captionOf(const FresnelCurve& curve) {
     return namedOf(curve) + "index " + shortNumber(curve.interface.eta) +
            (curve.interface.k == 0.0 ? "" : " + " + shortNumber(curve.interface.k) + " i") + ", F0 " +
-           rounded(curve.f0) + "; largest difference of Schlick's from the exact mean " +
-           (curve.largestDifference > 0.0 ? "+" : "") + rounded(curve.largestDifference) + " at " +
-           shortNumber(curve.atAngle) + "°.";
+           fourDecimals(curve.f0) + "; largest difference of Schlick's from the exact mean " +
+           (curve.largestDifference > 0.0 ? "+" : "") + fourDecimals(curve.largestDifference) + " at " +
+           shortNumber(curve.atAngle) + "°";
 }
 
 }  // namespace
@@ -45,14 +44,20 @@ Drawing draw(const FresnelCurves& curves) {
         several ? 520 : 600};
     for (const FresnelCurve& curve : curves.curves)
         drawing.caption.push_back(captionOf(curve));
+    drawing.caption.emplace_back(
+        "R_s perpendicular and R_p parallel to the plane of incidence; the exact reflectance of unpolarised "
+        "light "
+        "is their mean");
     std::string& text = drawing.commands;
     const double width = (several ? 0.935 : 0.89) / double(curves.curves.size());
     text +=
         "set xrange [0:90]\nset xtics 0,15,90\nset yrange [0:1]\nset ytics 0,0.2,1\nset grid linetype 1 "
         "linewidth 0.5 "
         "linecolor rgb \"#dddddd\"\nset xlabel \"angle of incidence [°]\"\n"
-        "set bmargin at screen bottom + 60 * pixel\nset tmargin at screen top - 24 * pixel\n"
-        "set key top left Left reverse samplen 3\nset multiplot\n";
+        "set bmargin at screen bottom + 64 * pixel\nset tmargin at screen top - " +
+        std::to_string(several ? 52 : 34) +
+        " * pixel\nset key at screen 0.5, top - 12 * pixel center center vertical maxrows 1 Left reverse "
+        "samplen 3\nset multiplot\n";
     for (size_t i = 0; i < curves.curves.size(); ++i) {
         const FresnelCurve& curve = curves.curves[i];
         std::vector<std::string> lines;
@@ -68,12 +73,11 @@ Drawing draw(const FresnelCurves& curves) {
         text += i == 0 ? "set ylabel \"reflectance\"\n" : "unset ylabel\nset ytics format \"\"\n";
         if (i > 0) text += "unset key\n";
         if (i > 0) text += "unset label\n";
-        text += "plot $" + name + " using 1:3 with lines linewidth 1.5 dashtype (8,4) linecolor rgb \"" +
-                seriesColor(2) + "\" title \"R_s, perpendicular\", $" + name +
-                " using 1:4 with lines linewidth 1.5 dashtype (2,3) linecolor rgb \"" + seriesColor(3) +
-                "\" title \"R_p, parallel\", $" + name +
-                " using 1:2 with lines linewidth 2.5 linecolor rgb \"" + seriesColor(0) +
-                "\" title \"exact, unpolarised\", $" + name +
+        text += "plot $" + name + " using 1:3 with lines linewidth 2 dashtype (8,4) linecolor rgb \"" +
+                seriesColor(2) + "\" title \"R_s\", $" + name +
+                " using 1:4 with lines linewidth 2 dashtype (3,3) linecolor rgb \"" + seriesColor(3) +
+                "\" title \"R_p\", $" + name + " using 1:2 with lines linewidth 2.5 linecolor rgb \"" +
+                seriesColor(0) + "\" title \"exact mean\", $" + name +
                 " using 1:5 with lines linewidth 2 dashtype (14,6) linecolor rgb \"" + seriesColor(1) +
                 "\" title \"Schlick\"\n";
     }

@@ -38,6 +38,17 @@ std::vector<double> geometricSteps(double first, double last, int count) {
     return steps;
 }
 
+double rounded(double value, int digits) {
+    if (value == 0.0) return 0.0;
+    const double power = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
+    return std::round(value * power) / power;
+}
+
+bool isWide(double low, double high) {
+    constexpr double kWide = 50.0;
+    return low > 0.0 && high / low >= kWide;
+}
+
 void requireIncidence(double incidence) {
     if (!(incidence >= 0.0 && incidence <= 89.9))
         throw UsageError("incidence " + shortNumber(incidence) + "; expected 0..89.9 degrees");

@@ -20,6 +20,12 @@ std::vector<double> linearSteps(double first, double last, int count);
 /// In geometric progression; both ends above 0.
 std::vector<double> geometricSteps(double first, double last, int count);
 
+/// To so many significant digits.
+double rounded(double value, int digits);
+
+/// Whether values from `low` to `high` are better taken in equal ratios than in equal steps.
+bool isWide(double low, double high);
+
 /// Throws UsageError unless 0 <= incidence <= 89.9.
 void requireIncidence(double incidence);
 

@@ -134,7 +134,7 @@ std::string gnuplotText(std::string_view text) {
         text.remove_prefix(std::max<size_t>(length, 1));
         for (char c : character) {
             const auto byte = static_cast<unsigned char>(c);
-            if (c == ' ' || (byte < 0x80 && std::isalnum(byte) != 0)) {
+            if (c == ' ' || (byte < 0x80 && std::isalpha(byte) != 0)) {
                 result += c;
                 continue;
             }

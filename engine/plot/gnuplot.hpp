@@ -7,7 +7,7 @@
 
 namespace lobe::plot {
 
-/// A text as a gnuplot string that means that text and nothing else: all but letters, digits and spaces are
+/// A text as a gnuplot string that means that text and nothing else: all but letters and spaces are
 /// octal escapes, so that no quote, backquote, @, newline or control character is left for gnuplot to see.
 /// What is not UTF-8, control characters included, becomes a question mark. Where a text is drawn, follow it
 /// by "noenhanced".

@@ -11,8 +11,8 @@ struct SurfaceRequest {
     Quantity quantity = Quantity::fCos;
     Channel channel = Channel::luminance;
     double azimuth = 0.0;
-    int rings = 81;     ///< from the mirrored direction to the horizon
-    int sectors = 120;  ///< around it
+    int rings = 49;    ///< from the mirrored direction to the horizon
+    int sectors = 90;  ///< around it
 };
 
 struct SurfacePoint {

@@ -3,13 +3,15 @@
 #include <set>
 
 #include "plot/drawing.hpp"
+#include "plot/geometry.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/style.hpp"
 
 namespace lobe::plot {
 namespace {
 
-constexpr double kDecades = 5.0;  ///< that a logarithmic radius shows
+constexpr double kDecades = 5.0;       ///< that a logarithmic radius shows
+constexpr double kLeastMirror = 1e-4;  ///< reflectance of a mirrored part that is shown
 
 /// From a value to a radius of 0..1.
 struct Radius {
@@ -23,17 +25,17 @@ struct Radius {
             return value <= minimum() ? 0.0 : 1.0 + std::log10(value / maximum) / kDecades;
         return value / maximum;
     }
+    /// The outermost is the maximum.
     Ticks ticks() const {
+        constexpr double kApart = 0.12;
         std::vector<double> values = roundSteps(maximum, 5);
         if (scale == RadiusScale::log) values = roundPowers(1.01 * minimum(), maximum);
-        if (scale == RadiusScale::sqrt) {
-            values = {0.0};
-            for (double value : roundPowers(1e-2 * maximum, maximum))
-                if (of(value) - of(values.back()) > 0.12) values.push_back(value);
-        }
-        Ticks ticks;
+        if (scale == RadiusScale::sqrt) values = roundPowers(1e-2 * maximum, maximum);
+        Ticks ticks{{0.0, scale == RadiusScale::log ? shortNumber(minimum()) : "0"}};
         for (double value : values)
-            ticks.emplace_back(of(value), shortNumber(value));
+            if (of(value) - ticks.back().first > kApart && of(value) < 1.0 - kApart)
+                ticks.emplace_back(of(value), shortNumber(value));
+        ticks.emplace_back(1.0, shortNumber(maximum));
         return ticks;
     }
     std::string text() const {
@@ -42,6 +44,14 @@ struct Radius {
                                            : "";
     }
 };
+
+/// The next number with at most two digits, the second of them even or 5.
+double roundAbove(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (double digits : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0})
+        if (digits * power >= value) return digits * power;
+    return 10.0 * power;
+}
 
 Radius radiusFor(const Lobes& lobes, RadiusScale asked) {
     double highest = 0.0, lowest = 0.0;
@@ -55,12 +65,17 @@ Radius radiusFor(const Lobes& lobes, RadiusScale asked) {
                               : ratio > 200.0                 ? RadiusScale::log
                               : ratio > 8.0                   ? RadiusScale::sqrt
                                                               : RadiusScale::linear;
-    return {scale, highest > 0.0 ? 1.05 * highest : 1.0};
+    return {scale, highest > 0.0 ? roundAbove(1.02 * highest) : 1.0};
 }
 
 bool isZero(const Lobes& lobes) {
     return std::all_of(lobes.lobes.begin(), lobes.lobes.end(),
                        [](const Lobe& lobe) { return peakOf(lobe.points) == 0.0; });
+}
+
+bool hasMirror(const Lobes& lobes) {
+    return std::any_of(lobes.lobes.begin(), lobes.lobes.end(),
+                       [](const Lobe& lobe) { return lobe.mirror > 0.0; });
 }
 
 /// Colours tell models apart, dashes incidences; for a single model colours tell incidences apart.
@@ -77,7 +92,7 @@ Look lookOf(const Lobes& lobes, const Lobe& lobe) {
 
 /// Solid, dashed, dotted, dash-dotted, ...
 std::string dashText(size_t dash) {
-    constexpr std::array<const char*, 5> kDashes{"solid", "(12,5)", "(2,4)", "(12,4,2,4)", "(12,4,2,4,2,4)"};
+    constexpr std::array<const char*, 5> kDashes{"solid", "(12,5)", "(3,3)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
     return std::string(" dashtype ") + kDashes[dash % kDashes.size()];
 }
 
@@ -87,6 +102,14 @@ std::string lineText(const Look& look) {
 
 std::string incidenceText(double incidence) {
     return "incidence " + shortNumber(incidence) + "°";
+}
+
+/// Rows of the legend that the corner beside the arc has no room for.
+int excessEntries(const Lobes& lobes) {
+    constexpr size_t kRoom = 2;
+    const size_t models = lobes.request.models.size(), incidences = lobes.request.incidences.size();
+    const size_t entries = models == 1 ? incidences : models + (incidences > 1 ? incidences : 0);
+    return entries > kRoom ? static_cast<int>(entries - kRoom) : 0;
 }
 
 /// Entries that have no line of their own in the plot.
@@ -123,13 +146,13 @@ std::string arrows(const Lobes& lobes) {
         text += arrow(1.0, 0.86, -incidence,
                       "head filled size 0.035,18 linewidth 1.5 linecolor rgb \"#777777\" front");
     for (const Lobe& lobe : lobes.lobes) {
-        if (lobe.mirror == 0.0) continue;
+        if (lobe.mirror < kLeastMirror) continue;
         text +=
             arrow(0.0, 0.97, lobe.incidence, "head filled size 0.035,18 " + lineText(lookOf(lobes, lobe)));
         const double at = glm::radians(lobe.incidence + 2.5);
         const double radius = 0.72 - 0.1 * double(lobe.model);
-        text += "set label " + gnuplotText("mirrored: " + shortNumber(std::round(lobe.mirror * 1e4) / 1e4)) +
-                " at " + numberText(radius * std::sin(at)) + "," + numberText(radius * std::cos(at)) +
+        text += "set label " + gnuplotText("mirrored: " + shortNumber(rounded(lobe.mirror, 2))) + " at " +
+                numberText(radius * std::sin(at)) + "," + numberText(radius * std::cos(at)) +
                 " left textcolor rgb \"" + seriesColor(lookOf(lobes, lobe).color) + "\" noenhanced front\n";
     }
     return text;
@@ -149,7 +172,8 @@ Table tableOf(const Lobes& lobes) {
 Drawing draw(const Lobes& lobes, RadiusScale asked) {
     const Radius radius = radiusFor(lobes, asked);
     const bool zero = isZero(lobes);
-    Drawing drawing{tableOf(lobes), "Reflection in the plane of incidence", {}, "", 960, 640};
+    const int headroom = 18 * excessEntries(lobes);
+    Drawing drawing{tableOf(lobes), "Reflection in the plane of incidence", {}, "", 960, 600 + headroom};
     if (lobes.request.models.size() == 1)
         drawing.title = lobes.request.models[0].brdf->title + ": reflection in the plane of incidence";
     for (const Model& model : lobes.request.models)
@@ -171,7 +195,8 @@ Drawing draw(const Lobes& lobes, RadiusScale asked) {
         (zero ? "No light leaves in other directions; arrows: "
               : "Radius: " + what + radius.text() + ", " + channelText(lobes.request.channel) +
                     "; angle: of the eye against the normal; grey arrows: ") +
-        std::string("incident light") + (zero ? ", and what is mirrored, by its reflectance" : "") +
+        std::string("incident light") +
+        (hasMirror(lobes) ? ", and what is mirrored, by its reflectance" : "") +
         (lobes.request.azimuth != 0.0
              ? "; plane of incidence " + shortNumber(lobes.request.azimuth) + "° from the tangent"
              : ""));
@@ -179,11 +204,13 @@ Drawing draw(const Lobes& lobes, RadiusScale asked) {
         "set polar\nset angles degrees\nset theta top clockwise\nset trange [-90:90]\nset rrange [0:1]\n"
         "set xrange [-1.2:1.2]\nset yrange [0:1.12]\nset size ratio -1\n"
         "set lmargin at screen 0.02\nset rmargin at screen 0.98\n"
-        "set bmargin at screen bottom + 50 * pixel\nset tmargin at screen top\n"
+        "set bmargin at screen bottom + 50 * pixel\nset tmargin at screen top - " +
+        std::to_string(headroom) +
+        " * pixel\n"
         "unset border\nunset xtics\nunset ytics\nunset raxis\n"
         "set grid polar 30 linetype 1 linewidth 0.7 linecolor rgb \"#cccccc\"\n"
         "set ttics -90,30,90 scale 0 format \"%.0f°\"\n"
-        "set key at screen 0.985, top right Right reverse\n";
+        "set key at screen 0.985, top right Left reverse\n";
     text += zero ? "unset rtics\n" : "set rtics scale 0 " + ticksText(radius.ticks()) + "\n";
     if (!zero)
         text += "set label " + gnuplotText(what) + " at 0,0 center offset character 0,-2.2 noenhanced\n";

@@ -62,6 +62,7 @@ void setMetal(Model& model, const Assignment& assignment) {
     for (const shading::Metal& metal : shading::metals()) {
         names.push_back(metal.name);
         if (metal.name != assignment.text) continue;
+        model.metal = metal.name;
         const Parameter& type =
             model.brdf->parameters[static_cast<size_t>(model.brdf->parameterIndex(kFresnel))];
         *placeOf(model, kFresnel) = static_cast<double>(
@@ -112,6 +113,7 @@ void setTable(Model& model, const Assignment& assignment) {
 
 void setValue(Model& model, const Parameter& parameter, const Assignment& assignment) {
     double* place = placeOf(model, parameter.name);
+    if (parameter.group == kFresnel) model.metal.clear();
     if (parameter.kind == ParameterKind::table) return setTable(model, assignment);
     if (parameter.kind == ParameterKind::choice) {
         const auto& choices = parameter.choices;
@@ -256,9 +258,17 @@ std::string widthParameter(const Brdf& brdf) {
 
 std::string describe(const Model& model) {
     std::string text;
-    for (size_t i = 0; i < model.brdf->parameters.size(); ++i)
-        if (counts(model, model.brdf->parameters[i]))
-            text += (text.empty() ? "" : ", ") + model.brdf->parameters[i].name + " " + valueText(model, i);
+    const auto add = [&](const std::string& name, const std::string& value) {
+        text += (text.empty() ? "" : ", ") + name + " " + value;
+    };
+    for (size_t i = 0; i < model.brdf->parameters.size(); ++i) {
+        const Parameter& parameter = model.brdf->parameters[i];
+        if (model.metal.empty() || parameter.group != kFresnel) {
+            if (counts(model, parameter)) add(parameter.name, valueText(model, i));
+        } else if (parameter.name == kFresnel) {
+            add(kMetal, model.metal);
+        }
+    }
     return model.brdf->title + ": " + text;
 }
 

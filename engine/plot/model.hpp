@@ -12,7 +12,8 @@ namespace lobe::plot {
 struct Model {
     const Brdf* brdf;
     ParameterValues values;  ///< valid, with the table where the model has one
-    std::string table;       ///< name of that table, for people
+    std::string table = {};  ///< name of that table, for people
+    std::string metal = {};  ///< name of the metal whose optical constants the values are
 };
 
 /// A parameter's new value as written on a command line: "alpha", "0.1"; "diffuse", "0.5" or "0.5,0.2,0.1";

@@ -17,13 +17,13 @@ void setTones(Slice& slice) {
             if (cell.f[c] > 0.0) positive.push_back(cell.f[c]);
     if (positive.empty()) return;
     std::sort(positive.begin(), positive.end());
-    slice.reference = positive[positive.size() / 2];
-    slice.brightest = positive.back();
+    slice.reference = positive[positive.size() / 10];
+    slice.brightest = positive[positive.size() - 1 - positive.size() / 100];
     const double scale = 255.0 / std::log1p(slice.brightest / slice.reference);
     for (SliceCell& cell : slice.cells)
         for (int c = 0; c < 3; ++c)
-            cell.tone[static_cast<size_t>(c)] =
-                static_cast<uint8_t>(std::lround(scale * std::log1p(cell.f[c] / slice.reference)));
+            cell.tone[static_cast<size_t>(c)] = static_cast<uint8_t>(
+                std::lround(std::min(scale * std::log1p(cell.f[c] / slice.reference), 255.0)));
 }
 
 }  // namespace

@@ -23,13 +23,13 @@ struct SliceCell {
 struct Slice {
     SliceRequest request;
     double reference = 0.0;  ///< f_r at which the tone turns from linear to logarithmic, 1/sr
-    double brightest = 0.0;  ///< f_r that is shown white, 1/sr
+    double brightest = 0.0;  ///< f_r from which on white is shown, 1/sr
     std::vector<SliceCell> cells;
 };
 
-/// Tone: ln(1 + f / reference) / ln(1 + brightest / reference), the reference being the median of the slice
-/// and the brightest its largest value. Cells where a direction is below the horizon are 0. Throws UsageError
-/// for models that scatter no light.
+/// Tone: ln(1 + f / reference) / ln(1 + brightest / reference), the reference being what a tenth of the slice
+/// is below, and the brightest what a hundredth is above, which is shown white. Cells where a direction is
+/// below the horizon are 0. Throws UsageError for models that scatter no light.
 Slice computeSlice(const Sampler& sampler, const SliceRequest& request);
 
 }  // namespace lobe::plot

@@ -1,4 +1,5 @@
 #include "plot/drawing.hpp"
+#include "plot/geometry.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/style.hpp"
 
@@ -29,8 +30,9 @@ Drawing draw(const Slice& slice) {
                     720};
     drawing.caption = {
         describe(request.model),
-        "f_r by channel; tone: ln(1 + f/a) / ln(1 + b/a), a = " + shortNumber(slice.reference) +
-            " 1/sr (the median), b = " + shortNumber(slice.brightest) + " 1/sr (the largest)"};
+        "f_r by channel; tone: ln(1 + f/a) / ln(1 + b/a), a = " + shortNumber(rounded(slice.reference, 3)) +
+            " 1/sr (a tenth is below), b = " + shortNumber(rounded(slice.brightest, 3)) +
+            " 1/sr (a hundredth is above)"};
     std::vector<std::string> lines;
     const int n = request.cells;
     for (int y = 0; y < n * kRepeat; ++y)
@@ -43,7 +45,7 @@ Drawing draw(const Slice& slice) {
         }
     drawing.commands =
         dataBlock("slice", lines) +
-        "set lmargin at screen 0.12\nset rmargin at screen 0.96\nset bmargin at screen bottom + 60 * pixel\n"
+        "set lmargin at screen 0.12\nset rmargin at screen 0.96\nset bmargin at screen bottom + 70 * pixel\n"
         "set tmargin at screen top - 8 * pixel\nset size ratio 1\nunset key\nset tics out\nset xrange "
         "[0:90]\n"
         "set yrange [0:90]\nset xtics 0,15,90\nset ytics 0,15,90\n"

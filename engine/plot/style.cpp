@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plot/geometry.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/table.hpp"
 
@@ -32,6 +33,19 @@ std::string hex(const Rgb& rgb) {
 
 /// Cells are repeated so that viewers that smooth images leave edges where they are.
 constexpr int kRepeat = 6;
+
+/// Places on an axis that counts cells; values are in equal steps, or in equal ratios if `wide`.
+std::string ticksOf(const std::vector<double>& values, const std::vector<double>& shown, bool wide) {
+    const auto scaled = [&](double value) { return wide ? std::log10(value) : value; };
+    const double low = scaled(values.front()), high = scaled(values.back());
+    Ticks ticks;
+    for (double value : shown) {
+        const double at = values.size() == 1 ? 0.0 : (scaled(value) - low) / (high - low);
+        if (at >= -1e-9 && at <= 1.0 + 1e-9)
+            ticks.emplace_back(at * (double(values.size()) - 1.0), shortNumber(value));
+    }
+    return ticksText(ticks);
+}
 
 }  // namespace
 
@@ -133,25 +147,12 @@ std::string axisName(const Model& model, const std::string& parameter) {
     return unit == "1" ? parameter : parameter + " [" + unit + "]";
 }
 
-bool isWide(const std::vector<double>& values) {
-    constexpr double kWide = 50.0;
-    return values.size() > 1 && values.front() > 0.0 && values.back() / values.front() >= kWide;
-}
-
 std::string heatMapCommands(const HeatMap& map) {
     const auto last = [](const std::vector<double>& v) { return double(v.size()) - 0.5; };
-    const auto ticksOf = [&](const std::vector<double>& values) {
-        const bool wide = isWide(values);
-        const double low = wide ? std::log10(values.front()) : values.front();
-        const double high = wide ? std::log10(values.back()) : values.back();
-        Ticks ticks;
-        for (double value :
-             wide ? roundPowers(values.front(), values.back()) : roundSteps(values.back(), 6)) {
-            const double at = ((wide ? std::log10(value) : value) - low) / (high - low);
-            if (at >= -1e-9) ticks.emplace_back(at * (double(values.size()) - 1.0), shortNumber(value));
-        }
-        return ticksText(ticks);
-    };
+    const bool wide = isWide(map.y.front(), map.y.back());
+    std::vector<double> xTicks;
+    for (double x = map.x.front(); x <= map.x.back(); x += map.xStep)
+        xTicks.push_back(x);
     std::vector<std::string> lines;
     const double step = 1.0 / kRepeat;
     for (size_t y = 0; y < map.y.size() * kRepeat; ++y)
@@ -162,15 +163,17 @@ std::string heatMapCommands(const HeatMap& map) {
                             numberText(std::max(z, map.zMinimum)));
         }
     return dataBlock("map", lines) +
-           "set lmargin at screen 0.09\nset rmargin at screen 0.86\n"
-           "set bmargin at screen bottom + 60 * pixel\nset tmargin at screen top - 10 * pixel\n"
+           "set lmargin at screen 0.11\nset rmargin at screen 0.86\n"
+           "set bmargin at screen bottom + 70 * pixel\nset tmargin at screen top - 10 * pixel\n"
            "unset key\nset tics out\nset xrange [-0.5:" +
            numberText(last(map.x)) + "]\nset yrange [-0.5:" + numberText(last(map.y)) + "]\nset xtics " +
-           ticksOf(map.x) + "\nset ytics " + ticksOf(map.y) + "\nset xlabel " + gnuplotText(map.xName) +
-           " noenhanced\nset ylabel " + gnuplotText(map.yName) + " noenhanced\nset cblabel " +
-           gnuplotText(map.zName) + " noenhanced\nset cbrange [" + numberText(map.zMinimum) + ":" +
-           numberText(map.zMaximum) + "]\n" + (map.zIsLog ? "set logscale cb\n" : "") +
-           "plot $map using 1:2:3 with image\n";
+           ticksOf(map.x, xTicks, false) + "\nset ytics " +
+           ticksOf(map.y, wide ? roundPowers(map.y.front(), map.y.back()) : roundSteps(map.y.back(), 6),
+                   wide) +
+           "\nset xlabel " + gnuplotText(map.xName) + " noenhanced\nset ylabel " + gnuplotText(map.yName) +
+           " noenhanced\nset cblabel " + gnuplotText(map.zName) + " noenhanced\nset cbrange [" +
+           numberText(map.zMinimum) + ":" + numberText(map.zMaximum) + "]\n" +
+           (map.zIsLog ? "set logscale cb\n" : "") + "plot $map using 1:2:3 with image\n";
 }
 
 }  // namespace lobe::plot

@@ -38,17 +38,14 @@ std::vector<double> roundPowers(double minimum, double maximum);
 /// "alpha" or "sigma [m]".
 std::string axisName(const Model& model, const std::string& parameter);
 
-/// Whether values that far apart are better shown by their powers of ten; all are above 0 then.
-bool isWide(const std::vector<double>& values);
-
-/// A heat map of values[row][column], rows along the angles upwards, as gnuplot's image. `sweep` are the
-/// parameter's values, shown along x in equal steps; empty for a map whose x says itself.
+/// A rectangle of coloured cells, x in equal steps; y in equal steps, or in equal ratios where it is wide.
 struct HeatMap {
     std::string xName, yName, zName;
     std::vector<double> x, y;
     std::vector<std::vector<double>> z;  ///< z[ix][iy]
     double zMinimum = 0.0, zMaximum = 1.0;
     bool zIsLog = false;
+    double xStep = 15.0;  ///< between ticks
 };
 std::string heatMapCommands(const HeatMap& map);
 

@@ -29,7 +29,7 @@ Drawing draw(const Surface& surface) {
                     {},
                     "",
                     860,
-                    700};
+                    620};
     double highest = 0.0;
     for (const auto& ring : surface.rings)
         for (const SurfacePoint& point : ring)
@@ -64,16 +64,17 @@ Drawing draw(const Surface& surface) {
         low[c] = std::min(low[c], -0.35 * reach);
         high[c] = std::max(high[c], 0.35 * reach);
     }
-    const double step = roundSteps(reach, 3)[1];
+    const double step = roundSteps(reach, 4)[1];
     std::string& text = drawing.commands;
     text = dataBlock("surface", lines) +
            "set lmargin at screen 0.02\nset rmargin at screen 0.84\n"
            "set bmargin at screen bottom + 10 * pixel\nset tmargin at screen top\n"
-           "set view 62,35\nset view equal xyz\nset xyplane at 0\nunset key\nset border 31\n"
+           "set view 62,35,1.35\nset view equal xyz\nset xyplane at 0\nunset key\nset border 31\n"
            "set xrange [" +
            numberText(low.x) + ":" + numberText(high.x) + "]\nset yrange [" + numberText(low.y) + ":" +
            numberText(high.y) + "]\nset zrange [0:" + numberText(high.z) + "]\nset tics " + numberText(step) +
-           "\nset cbtics auto\nset xlabel \"x\"\nset ylabel \"y\"\nset zlabel \"z\"\nset cblabel " +
+           "\nset xtics offset 0,-0.5\nset ytics offset 0.8,-0.4\nset cbtics auto\nset xlabel \"x\"\nset "
+           "ylabel \"y\"\nset zlabel \"z\"\nset cblabel " +
            gnuplotText(quantityText(request.quantity)) +
            " noenhanced\nset cbrange [0:" + numberText(highest > 0.0 ? highest : 1.0) +
            "]\n"
