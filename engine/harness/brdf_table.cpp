@@ -126,20 +126,23 @@ const std::vector<Kind>& kinds() {
     return list;
 }
 
-/// The examples one after the other as GLSL reads them, and where each starts.
+/// Tables one after the other as GLSL reads them, and where each starts.
 struct PackedTables {
     std::vector<float> floats;
     std::vector<int> firstRow;
 };
 
-PackedTables packTables(const Brdf& brdf) {
+PackedTables packTables(std::span<const TableRows> tables) {
     PackedTables packed;
-    if (!brdf.table) return packed;
-    for (const TableRows& rows : exampleTables(brdf)) {
+    for (const TableRows& rows : tables) {
         packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
         packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
     }
     return packed;
+}
+
+PackedTables packExamples(const Brdf& brdf) {
+    return brdf.table ? packTables(exampleTables(brdf)) : PackedTables{};
 }
 
 /// The row's values with the place of its table.
@@ -234,7 +237,13 @@ BrdfEvaluator::BrdfEvaluator(const gl::ShaderLibrary& library, const Brdf& brdf)
     : brdf_(brdf), evaluator_(library, localSnippet(brdf)) {}
 
 std::vector<BrdfResult> BrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows) const {
-    const PackedTables tables = packTables(brdf_);
+    return evaluate(
+        rows, brdf_.table ? std::span<const TableRows>(exampleTables(brdf_)) : std::span<const TableRows>());
+}
+
+std::vector<BrdfResult> BrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows,
+                                                std::span<const TableRows> ofRows) const {
+    const PackedTables tables = packTables(ofRows);
     std::vector<float> inputs;
     for (const BrdfRow& row : rows) {
         append(inputs, row.wi);
@@ -255,7 +264,7 @@ WorldBrdfEvaluator::WorldBrdfEvaluator(const gl::ShaderLibrary& library, const B
 
 std::vector<glm::vec3> WorldBrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows,
                                                     const std::vector<glm::vec3>& normals) const {
-    const PackedTables tables = packTables(brdf_);
+    const PackedTables tables = packExamples(brdf_);
     std::vector<float> inputs;
     for (size_t i = 0; i < rows.size(); ++i) {
         append(inputs, normals[i]);

@@ -41,6 +41,9 @@ class BrdfEvaluator {
 public:
     BrdfEvaluator(const gl::ShaderLibrary& library, const Brdf& brdf);
     std::vector<BrdfResult> evaluate(const std::vector<BrdfRow>& rows) const;
+    /// With tables other than the examples: BrdfRow::table is an index into `tables`.
+    std::vector<BrdfResult> evaluate(const std::vector<BrdfRow>& rows,
+                                     std::span<const TableRows> tables) const;
 
 private:
     const Brdf& brdf_;

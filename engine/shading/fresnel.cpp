@@ -1,7 +1,6 @@
 #include "shading/fresnel.hpp"
 
 #include <cmath>
-#include <complex>
 
 #include "shading/bands.hpp"
 
@@ -14,14 +13,17 @@ double schlick(double f0, double oneMinusCos) {
     return f0 + (1.0 - f0) * std::pow(oneMinusCos, 5.0);
 }
 
-/// Amplitudes of both polarisations from Snell's law with a complex index; unpolarised light has the mean of
-/// their squares.
-double exact(Complex index, double cosTheta, double oneMinusCos) {
+PolarisedReflectance polarised(Complex index, double cosTheta, double oneMinusCos) {
     const double sin2 = oneMinusCos * (1.0 + cosTheta);
     const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
     const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
     const Complex p = (index * cosTheta - transmitted) / (index * cosTheta + transmitted);
-    return 0.5 * (std::norm(s) + std::norm(p));
+    return {std::norm(s), std::norm(p)};
+}
+
+double exact(Complex index, double cosTheta, double oneMinusCos) {
+    const auto [s, p] = polarised(index, cosTheta, oneMinusCos);
+    return 0.5 * (s + p);
 }
 
 glm::dvec3 reflectanceAt(std::span<const double> values, double cosTheta, double oneMinusCos) {
@@ -42,6 +44,10 @@ glm::dvec3 reflectanceAt(std::span<const double> values, double cosTheta, double
 
 double exactReflectance(Complex index, double cosTheta) {
     return exact(index, cosTheta, 1.0 - cosTheta);
+}
+
+PolarisedReflectance polarisedReflectance(Complex index, double cosTheta) {
+    return polarised(index, cosTheta, 1.0 - cosTheta);
 }
 
 std::vector<Parameter> fresnelParameters() {

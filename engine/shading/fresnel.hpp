@@ -29,6 +29,13 @@ glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& 
 /// 1 - V.H, to all digits near 0 too.
 double oneMinusCosThetaD(const Directions& d);
 
+/// Squared amplitudes from Snell's law with the complex index eta + i k, perpendicular (s) and parallel (p)
+/// to the plane of incidence; unpolarised light has their mean.
+struct PolarisedReflectance {
+    double s, p;
+};
+PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta);
+
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);
 
