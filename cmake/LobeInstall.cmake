@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lobe)
 get_property(rooms GLOBAL PROPERTY LOBE_ROOMS)
 
-install(TARGETS lobe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS lobe-image-worker lobe-scene-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lobe)
+install(TARGETS lobe lobe-check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS lobe-image-worker lobe-scene-worker lobe-check-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lobe)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/shaders/glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe
         FILES_MATCHING PATTERN "*.glsl" PATTERN "*.vert" PATTERN "*.frag")
 

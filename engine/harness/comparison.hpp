@@ -42,7 +42,11 @@ public:
 
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
-    double worst() const { return worst_; }  ///< of 16
+    double worst() const { return worst_; }                  ///< of 16
+    double worstRelative() const { return worstRelative_; }  ///< of the row of worst()
+    const std::string& worstRow() const { return worstRow_; }
+    /// Of the values whose condition number is at most 4.
+    uint64_t worstUlp() const { return worstUlp_; }
     /// Share of the values that were not judged: off by more than 16 x 2^-24 x 4 where the allowance exceeds
     /// 10 %, or of a lobe too narrow to be resolved.
     double illConditionedShare() const {
@@ -60,6 +64,7 @@ private:
     size_t illConditioned_ = 0;
     double worst_ = 0.0;
     double worstRelative_ = 0.0;
+    uint64_t worstUlp_ = 0;
     std::string worstRow_;
 };
 
