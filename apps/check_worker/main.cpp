@@ -1,6 +1,6 @@
 // lobe-check-worker: compiles and runs what is tested.
-#include "base/worker.hpp"
+#include "harness/unit/unit_worker.hpp"
 
 int main() {
-    return lobe::serveWorker([](const lobe::Message&) { return lobe::Message{}; });
+    return lobe::serveWorker(lobe::harness::serveUnitRequest);
 }

@@ -98,19 +98,27 @@ std::vector<Assignment> Arguments::assignments() const {
                 {Assignment::Kind::set, values[index].substr(0, equals), values[index].substr(equals + 1)});
             continue;
         }
-        for (const Setting& setting : settingTable())
-            if (option->check_lname(setting.flag().substr(2)) && index < values.size())
+        for (const Setting& setting : settingTable()) {
+            if (!option->check_lname(setting.flag().substr(2)) || index >= values.size()) continue;
+            const bool several = setting.type == SettingType::files || setting.type == SettingType::pairs;
+            if (!several)
                 result.push_back({Assignment::Kind::set, setting.key, values[index]});
+            else if (index == 0)  // the first time stands for all
+                result.push_back({Assignment::Kind::set, setting.key, values});
+        }
     }
     return result;
 }
 
 SettingSources Arguments::sources() const {
     SettingSources sources;
-    if (!noConfig_) sources.configs = standardConfigs();
-    if (!configFile_.empty()) sources.configs.emplace_back(readJsonFile(configFile_), configFile_);
-    if (!settingsFile_.empty()) sources.configs.emplace_back(readJsonFile(settingsFile_), settingsFile_);
     sources.assignments = assignments();
+    for (const Assignment& assignment : sources.assignments)  // first: configurations may name their models
+        if (assignment.kind == Assignment::Kind::set && assignment.key == "brdf_file")
+            Settings().set(assignment.key, assignment.value, "command line");
+    if (!noConfig_) sources.configs = standardConfigs();
+    if (!configFile_.empty()) sources.configs.push_back(configFrom(configFile_));
+    if (!settingsFile_.empty()) sources.configs.push_back(configFrom(settingsFile_));
     return sources;
 }
 

@@ -15,6 +15,7 @@ constexpr const char* kUsage =
     "usage: lobe COMMAND [OPTION...]\n"
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
+    "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
     "  info                                 OpenGL contexts that can be made here\n"
     "  help [COMMAND]                       every setting, or a command's options\n"
     "  --version                            versions\n"
@@ -23,6 +24,7 @@ constexpr const char* kUsage =
 int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {{"render", lobe::app::renderCommand},
                                                             {"plan", lobe::app::planCommand},
+                                                            {"models", lobe::app::modelsCommand},
                                                             {"info", lobe::app::infoCommand},
                                                             {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];

@@ -24,7 +24,8 @@ struct ShaderSource {
 };
 
 /// Reads shader files. `#include "brdf/ward.glsl"` is rooted at the library; each file is taken once. Names
-/// in `generated` are taken before files ("generated/material.glsl").
+/// in `generated` are taken before files ("generated/material.glsl"). No include leads out of the library,
+/// or, in a mounted file, out of the folder of that file; but see ofFiles().
 class ShaderLibrary {
 public:
     explicit ShaderLibrary(std::filesystem::path root);
@@ -41,9 +42,19 @@ public:
     /// The first folder.
     const std::filesystem::path& root() const { return folders_.front(); }
 
+    /// A file from elsewhere takes the place `name` in the library, with the text that is given. What it
+    /// includes is looked for in its own folder before the library. Messages name it as `file` does.
+    void mount(const std::string& name, const std::filesystem::path& file, const std::string& text);
+
+    struct Mounted {
+        std::filesystem::path file;
+        std::string text;
+    };
+
 private:
     std::vector<std::filesystem::path> folders_;
     bool ofFiles_ = false;
+    std::map<std::string, Mounted> mounted_;
 };
 
 /// A linked program. Move-only.
@@ -52,7 +63,9 @@ public:
     Program() = default;
     /// Throws ShaderError: "pass/light.frag:41: message", with three lines of source, for each of the
     /// driver's lines that can be placed.
-    Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name);
+    /// `captured`: outputs of the vertex stage that transform feedback writes, interleaved.
+    Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name,
+            const std::vector<std::string>& captured = {});
     Program(Program&&) noexcept;
     Program& operator=(Program&&) noexcept;
     ~Program();

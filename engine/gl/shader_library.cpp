@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -40,16 +41,18 @@ std::string shownPath(const fs::path& path) {
 class Expansion {
 public:
     Expansion(const std::vector<fs::path>& folders, bool ofFiles,
-              const std::map<std::string, std::string>& generated, ShaderSource& out)
-        : folders_(folders), ofFiles_(ofFiles), generated_(generated), out_(out) {}
+              const std::map<std::string, std::string>& generated,
+              const std::map<std::string, ShaderLibrary::Mounted>& mounted, ShaderSource& out)
+        : folders_(folders), ofFiles_(ofFiles), generated_(generated), mounted_(mounted), out_(out) {}
 
     void emit(const std::string& line, const std::string& file, int number) {
         out_.text += line + "\n";
         out_.places.push_back({file, number});
     }
 
-    void expand(const std::string& name, const std::string& from, const fs::path& includer = {}) {
-        const Found found = find(name, from, includer);
+    /// `folder`: that the include's own file is looked for in first; empty in the library.
+    void expand(const std::string& name, const std::string& from, const fs::path& folder = {}) {
+        const Found found = find(name, from, folder);
         if (chain_.size() >= kMaxDepth)
             throw ShaderError(from + ": includes nest deeper than " + std::to_string(kMaxDepth));
         for (const std::string& open : chain_)
@@ -57,14 +60,15 @@ public:
                 throw ShaderError(from + ": " + found.name + " includes itself, by way of " + chain_.back());
         if (!taken_.insert(found.name).second) return;
         chain_.push_back(found.name);
-        std::istringstream lines(read(found));
+        if (!found.path.empty()) out_.files.push_back(found.path);
+        std::istringstream lines(found.text);
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             if (!line.empty() && line.back() == '\r') line.pop_back();
             const std::string place = found.name + ":" + std::to_string(number);
             const Directive directive = inComment_ ? Directive{} : directiveIn(line);
             if (directive.word == "include")
-                expand(includedBy(line, directive, place), place, found.path.parent_path());
+                expand(includedBy(line, directive, place), place, found.folder);
             else if (!ofFiles_ || !hoist(directive, line, found.name, number))
                 emit(line, found.name, number);
             inComment_ = commentAfter(line);
@@ -90,37 +94,74 @@ public:
 
 private:
     struct Found {
-        std::string name;  ///< for messages; one a file
-        fs::path path;     ///< empty if generated
+        std::string name;  ///< for messages; tells files apart
+        std::string text;
+        fs::path folder;  ///< that its own includes are looked for in first
+        fs::path path;    ///< empty if generated or mounted
     };
 
-    Found find(const std::string& name, const std::string& from, const fs::path& includer) const {
-        const std::string normal = fs::path(name).lexically_normal().generic_string();
-        if (generated_.contains(normal)) return {normal, {}};
-        std::vector<fs::path> places;
-        if (ofFiles_ && (!includer.empty() || fs::path(name).is_absolute())) places.push_back(includer);
-        places.insert(places.end(), folders_.begin(), folders_.end());
-        std::string tried;
-        std::error_code ignored;
-        for (const fs::path& place : places) {
-            const fs::path path = place / normal;
-            if (fs::is_regular_file(path, ignored)) {
-                if (!ofFiles_) return {normal, path};
-                const fs::path canonical = fs::canonical(path, ignored);
-                return {shownPath(canonical.empty() ? path : canonical), path};
-            }
-            tried += (tried.empty() ? "" : ", ") + place.string();
-        }
-        throw ShaderError(from + ": shader file " + normal + " not found in " + tried);
+    Found find(const std::string& name, const std::string& from, const fs::path& folder) const {
+        const fs::path normal = fs::path(name).lexically_normal();
+        const std::string file = normal.generic_string();
+        if (const auto found = generated_.find(file); found != generated_.end())
+            return {file, found->second, {}, {}};
+        if (const auto found = mounted_.find(file); found != mounted_.end())
+            return {found->second.file.generic_string(), found->second.text, folderOf(found->second.file), {}};
+        return ofFiles_ ? findAnywhere(normal, from, folder) : findBelow(normal, from, folder);
     }
 
-    std::string read(const Found& found) {
-        if (found.path.empty()) return generated_.at(found.name);
-        std::ifstream stream(found.path, std::ios::binary);
-        if (!stream) throw ShaderError(found.name + ": can't be read");
+    Found findBelow(const fs::path& normal, const std::string& from, const fs::path& folder) const {
+        const std::string file = normal.generic_string();
+        const fs::path& root = folders_.front();
+        if (normal.is_absolute() || file.starts_with(".."))
+            throw ShaderError(from + ": #include \"" + file + "\" leads out of the " +
+                              (folder.empty() ? "library" : "file's folder and the library") +
+                              "; expected a file below");
+        if (std::error_code ignored; !folder.empty() && fs::exists(folder / normal, ignored)) {
+            const fs::path real = fs::canonical(folder / normal, ignored);
+            const fs::path below = real.lexically_relative(fs::canonical(folder, ignored));
+            if (ignored || below.empty() || below.generic_string().starts_with(".."))
+                throw ShaderError(from + ": #include \"" + file +
+                                  "\" leads out of the file's folder by a link; expected a file below");
+            if (std::optional<std::string> text = readFile(real))
+                return {(folder / normal).generic_string(), std::move(*text), folder, real};
+        }
+        if (std::optional<std::string> text = readFile(root / normal))
+            return {file, std::move(*text), {}, root / normal};
+        throw ShaderError(from + ": shader file " + file + " not found in " +
+                          (folder.empty() ? "" : folder.string() + " or ") + root.string());
+    }
+
+    Found findAnywhere(const fs::path& normal, const std::string& from, const fs::path& folder) const {
+        std::vector<fs::path> places = folders_;
+        if (!folder.empty() || normal.is_absolute()) places.insert(places.begin(), folder);
+        std::string tried;
+        for (const fs::path& place : places) {
+            const fs::path path = place / normal;
+            if (std::optional<std::string> text = readFile(path)) {
+                std::error_code failed;
+                const fs::path canonical = fs::canonical(path, failed);
+                return {shownPath(failed ? path : canonical), std::move(*text), folderOf(path), path};
+            }
+            tried += (tried.empty() ? "" : ", ") + shownPath(place.empty() ? "/" : place);
+        }
+        throw ShaderError(from + ": shader file " + normal.generic_string() + " not found in " + tried);
+    }
+
+    static fs::path folderOf(const fs::path& file) {
+        return file.parent_path().empty() ? "." : file.parent_path();
+    }
+
+    /// Nothing if it is no regular file that can be read, or above 1 MiB.
+    static std::optional<std::string> readFile(const fs::path& file) {
+        constexpr uintmax_t kMostBytes = uintmax_t{1} << 20;
+        std::error_code failed;
+        if (!fs::is_regular_file(file, failed) || fs::file_size(file, failed) > kMostBytes || failed)
+            return {};
+        std::ifstream stream(file, std::ios::binary);
+        if (!stream) return {};
         std::ostringstream text;
         text << stream.rdbuf();
-        out_.files.push_back(found.path);
         return text.str();
     }
 
@@ -170,6 +211,7 @@ private:
     const std::vector<fs::path>& folders_;
     bool ofFiles_;
     const std::map<std::string, std::string>& generated_;
+    const std::map<std::string, ShaderLibrary::Mounted>& mounted_;
     ShaderSource& out_;
     std::set<std::string> taken_;
     std::vector<std::string> chain_;
@@ -189,10 +231,14 @@ ShaderLibrary ShaderLibrary::ofFiles(std::vector<fs::path> folders) {
     return library;
 }
 
+void ShaderLibrary::mount(const std::string& name, const fs::path& file, const std::string& text) {
+    mounted_[name] = {file, text};
+}
+
 ShaderSource ShaderLibrary::source(const std::string& file, const Defines& defines,
                                    const std::map<std::string, std::string>& generated) const {
     ShaderSource result;
-    Expansion expansion(folders_, ofFiles_, generated, result);
+    Expansion expansion(folders_, ofFiles_, generated, mounted_, result);
     expansion.expand(file, "(program)");
     expansion.finish(defines);
     return result;

@@ -126,22 +126,6 @@ const std::vector<Kind>& kinds() {
     return list;
 }
 
-/// The examples one after the other as GLSL reads them, and where each starts.
-struct PackedTables {
-    std::vector<float> floats;
-    std::vector<int> firstRow;
-};
-
-PackedTables packTables(const Brdf& brdf) {
-    PackedTables packed;
-    if (!brdf.table) return packed;
-    for (const TableRows& rows : exampleTables(brdf)) {
-        packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
-        packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
-    }
-    return packed;
-}
-
 /// The row's values with the place of its table.
 void appendValues(const Brdf& brdf, const BrdfRow& row, const PackedTables& tables,
                   std::vector<float>& inputs) {
@@ -200,6 +184,16 @@ void append(std::vector<float>& inputs, const glm::vec3& v) {
 }
 
 }  // namespace
+
+PackedTables packTables(const Brdf& brdf) {
+    PackedTables packed;
+    if (!brdf.table) return packed;
+    for (const TableRows& rows : exampleTables(brdf)) {
+        packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
+        packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
+    }
+    return packed;
+}
 
 std::vector<BrdfRow> brdfRows(const Brdf& brdf, int perKind, uint64_t seed) {
     Pcg32 random(seed);

@@ -85,7 +85,8 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
         }
         const double error = std::abs(value - exact[c]) / exact[c];
         // No condition number lets such a row fail or be the worst.
-        if (error <= worst_ * kLeastUnit) continue;
+        const uint64_t ulps = ulpDistance(got[c], static_cast<float>(exact[c]));
+        if (error <= worst_ * kLeastUnit && ulps <= worstUlp_) continue;
         if (unjudged()) {
             if (error > kFactor * kLeastUnit) ++illConditioned_;
             continue;
@@ -95,7 +96,9 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
             return fail(row, c, value,
                         digits(exact[c], 9) + " within " + digits(kFactor * unit / kFloatRounding, 4) +
                             " x 2^-24; off by " + digits(error / kFloatRounding, 4));
-        if (error / unit > worst_ && exact[c] > 1e6 * kUnderflow) {
+        if (exact[c] <= 1e6 * kUnderflow) continue;
+        if (unit <= 2.0 * kLeastUnit) worstUlp_ = std::max(worstUlp_, ulps);
+        if (error / unit > worst_) {
             worst_ = error / unit;
             worstRelative_ = error;
             worstRow_ = describe(row);

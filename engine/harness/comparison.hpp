@@ -23,7 +23,8 @@ enum class Axes {
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:
-    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) {}
+    /// Throws UsageError for a model without a twin.
+    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) { requireTwin(brdf); }
 
     /// False if the row fails; message() then says where, with both values and the tolerance. `d` are the
     /// row's directions in the local frame, in double.
@@ -32,6 +33,10 @@ public:
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
     double worst() const { return worst_; }  ///< of 16
+    double worstRelative() const { return worstRelative_; }  ///< of the row of worst()
+    const std::string& worstRow() const { return worstRow_; }
+    /// Of the values whose condition number is at most 4.
+    uint64_t worstUlp() const { return worstUlp_; }
     /// Share of the values that were not judged: off by more than 16 x 2^-24 x 4 where the allowance exceeds
     /// 10 %, or of a lobe too narrow to be resolved.
     double illConditionedShare() const {
@@ -49,6 +54,7 @@ private:
     size_t illConditioned_ = 0;
     double worst_ = 0.0;
     double worstRelative_ = 0.0;
+    uint64_t worstUlp_ = 0;
     std::string worstRow_;
 };
 

@@ -109,7 +109,7 @@ struct Brdf {
     BrdfTraits traits;
 
     /// f_r(wi, wo) * cos(theta_i), in 1/sr, in double, from the paper's formula: the twin of NAME_f_cos in
-    /// GLSL.
+    /// GLSL. Absent in models that were loaded from a file of their own (brdf_file.hpp): requireTwin().
     std::function<glm::dvec3(const Directions&, std::span<const double>)> fCos;
 
     /// Sum of the absolute values of the terms of fCos, where some of them are negative: each has roundings
@@ -134,6 +134,10 @@ struct Brdf {
     /// "baseColor".
     std::string baseColorParameter;
 
+    /// Models that were loaded at run time only: the GLSL file, its text when it was read, and what stands in
+    /// for functions that it lacks.
+    std::string file, glsl, glslSubstitutes;
+
     int parameterIndex(std::string_view parameterName) const;  ///< -1 if there is none
     int valueOffset(int parameterIndex) const;                 ///< of its first double in ParameterValues
     int valueCount() const;                                    ///< without the table
@@ -144,12 +148,19 @@ struct Brdf {
     std::span<const double> tableOf(std::span<const double> values) const;
 };
 
-/// All models, sorted by name. References stay valid for the program's life.
+/// All models that come with Lobe, sorted by name. References stay valid for the program's life.
 const std::vector<Brdf>& allBrdfs();
-std::vector<std::string> brdfNames();
+/// Those loaded from files (brdf_file.hpp), until others take their place.
+const std::vector<Brdf>& loadedBrdfs();
+/// Takes the place of those loaded before. Not while another thread uses the registry. Throws UsageError if
+/// two, or one and a model that comes with Lobe, have one name.
+void setLoadedBrdfs(std::vector<Brdf> brdfs);
+std::vector<std::string> brdfNames();  ///< of both
 const Brdf* findBrdf(std::string_view name);
 /// Throws UsageError with the nearest name.
 const Brdf& requireBrdf(std::string_view name);
+/// Throws UsageError for a model without a twin, which only those loaded from files are.
+void requireTwin(const Brdf& brdf);
 
 /// Throws InputError "WHERE: PARAMETER: VALUE; expected MIN..MAX" if a value is out of range or not finite.
 void validateParameters(const Brdf& brdf, std::span<const double> values, const std::string& where);

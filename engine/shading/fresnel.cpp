@@ -3,26 +3,28 @@
 #include <cmath>
 #include <complex>
 
+#include "shading/bands.hpp"
+
 namespace lobe::shading {
 namespace {
 
 using Complex = std::complex<double>;
-
-/// Amplitudes of both polarisations from Snell's law with a complex index; unpolarised light has the mean of
-/// their squares.
-double exact(Complex index, double cosTheta) {
-    const double sin2 = (1.0 - cosTheta) * (1.0 + cosTheta);
-    const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
-    const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
-    const Complex p = (index * cosTheta - transmitted) / (index * cosTheta + transmitted);
-    return 0.5 * (std::norm(s) + std::norm(p));
-}
 
 double schlick(double f0, double cosTheta) {
     return f0 + (1.0 - f0) * std::pow(1.0 - cosTheta, 5.0);
 }
 
 }  // namespace
+
+/// Amplitudes of both polarisations from Snell's law with a complex index; unpolarised light has the mean of
+/// their squares.
+double exactReflectance(Complex index, double cosTheta) {
+    const double sin2 = (1.0 - cosTheta) * (1.0 + cosTheta);
+    const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
+    const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
+    const Complex p = (index * cosTheta - transmitted) / (index * cosTheta + transmitted);
+    return 0.5 * (std::norm(s) + std::norm(p));
+}
 
 std::vector<Parameter> fresnelParameters() {
     std::vector<Parameter> parameters{
@@ -45,13 +47,15 @@ glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta) {
     const auto type = static_cast<FresnelType>(static_cast<int>(values[0]));
     // Half vectors of unit vectors can exceed the cosine of 0 by a rounding.
     const double c = std::min(cosTheta, 1.0);
+    if (type == FresnelType::bands) return bandReflectance(bandsIn(values.subspan(4, 3)), c);
     glm::dvec3 reflectance;
     for (size_t i = 0; i < 3; ++i) {
         const auto channel = static_cast<int>(i);
         const double eta = values[4 + i];
-        reflectance[channel] = type == FresnelType::schlick
-                                   ? schlick(values[1 + i], c)
-                                   : exact({eta, type == FresnelType::conductor ? values[7 + i] : 0.0}, c);
+        reflectance[channel] =
+            type == FresnelType::schlick
+                ? schlick(values[1 + i], c)
+                : exactReflectance({eta, type == FresnelType::conductor ? values[7 + i] : 0.0}, c);
     }
     return reflectance;
 }

@@ -1,6 +1,7 @@
 /// Reflectance of a smooth interface for unpolarised light, and the four parameters by which models name it.
 #pragma once
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,11 @@
 
 namespace lobe::shading {
 
-enum class FresnelType : uint8_t { schlick, dielectric, conductor };
+/// `bands` (shading/bands.hpp) takes the place of a metal's three indices where more are asked for.
+enum class FresnelType : uint8_t { schlick, dielectric, conductor, bands };
+
+/// Exact, for one wavelength.
+double exactReflectance(std::complex<double> index, double cosTheta);
 
 /// Parameters `fresnel` (the type), `f0`, `eta`, `k`: the scene format's object "fresnel".
 std::vector<Parameter> fresnelParameters();
