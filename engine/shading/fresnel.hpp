@@ -14,6 +14,8 @@ enum class FresnelType : uint8_t { schlick, dielectric, conductor, bands };
 
 /// Exact, for one wavelength.
 double exactReflectance(std::complex<double> index, double cosTheta);
+/// 1 - cos(theta) given along, to all digits near 0 too.
+double exactReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
 /// Parameters `fresnel` (the type), `f0`, `eta`, `k`: the scene format's object "fresnel".
 std::vector<Parameter> fresnelParameters();
@@ -22,6 +24,12 @@ inline constexpr size_t kFresnelValues = 10;
 /// Reflectance at cos(theta) in 0..1 for the ten values of fresnelParameters(). Exact equations (Born and
 /// Wolf, Principles of Optics) with complex index eta + i k; Schlick, Computer Graphics Forum 13(3), 1994.
 glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta);
+
+/// The same for the angle between either direction and their half vector, to all digits near 0 too.
+glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& d);
+
+/// 1 - V.H, to all digits near 0 too.
+double oneMinusCosThetaD(const Directions& d);
 
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);
