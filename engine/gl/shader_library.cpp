@@ -106,7 +106,8 @@ private:
         if (const auto found = generated_.find(file); found != generated_.end())
             return {file, found->second, {}, {}};
         if (const auto found = mounted_.find(file); found != mounted_.end())
-            return {found->second.file.generic_string(), found->second.text, folderOf(found->second.file), {}};
+            return {
+                found->second.file.generic_string(), found->second.text, folderOf(found->second.file), {}};
         return ofFiles_ ? findAnywhere(normal, from, folder) : findBelow(normal, from, folder);
     }
 

@@ -32,7 +32,7 @@ public:
 
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
-    double worst() const { return worst_; }  ///< of 16
+    double worst() const { return worst_; }                  ///< of 16
     double worstRelative() const { return worstRelative_; }  ///< of the row of worst()
     const std::string& worstRow() const { return worstRow_; }
     /// Of the values whose condition number is at most 4.
