@@ -113,7 +113,7 @@ std::string inputName(size_t i) {
 
 /// GLSL that puts the number together from the floats that came.
 std::string fromFloats(GlslScalar scalar, size_t first) {
-    const std::string a = inputName(first);
+    std::string a = inputName(first);
     const std::string b = inputName(first + 1);
     switch (scalar) {
         case GlslScalar::integer:
