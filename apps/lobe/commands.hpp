@@ -8,6 +8,8 @@ namespace lobe::app {
 
 int renderCommand(const std::vector<std::string>& arguments);
 int planCommand(const std::vector<std::string>& arguments);
+/// `lobe plot KIND`: docs/plots.md.
+int plotCommand(const std::vector<std::string>& arguments);
 int infoCommand(const std::vector<std::string>& arguments);
 int modelsCommand(const std::vector<std::string>& arguments);
 /// `lobe help [--markdown]`: all settings, as docs/cli.md holds them.

@@ -16,17 +16,17 @@ constexpr const char* kUsage =
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
+    "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
     "  info                                 OpenGL contexts that can be made here\n"
     "  help [COMMAND]                       every setting, or a command's options\n"
     "  --version                            versions\n"
     "lobe COMMAND --help lists a command's options.\n";
 
 int run(const std::vector<std::string>& arguments) {
-    static const std::map<std::string, Command> commands = {{"render", lobe::app::renderCommand},
-                                                            {"plan", lobe::app::planCommand},
-                                                            {"models", lobe::app::modelsCommand},
-                                                            {"info", lobe::app::infoCommand},
-                                                            {"help", lobe::app::helpCommand}};
+    static const std::map<std::string, Command> commands = {
+        {"render", lobe::app::renderCommand}, {"plan", lobe::app::planCommand},
+        {"models", lobe::app::modelsCommand}, {"plot", lobe::app::plotCommand},
+        {"info", lobe::app::infoCommand},     {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");

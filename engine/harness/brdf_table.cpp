@@ -185,14 +185,17 @@ void append(std::vector<float>& inputs, const glm::vec3& v) {
 
 }  // namespace
 
-PackedTables packTables(const Brdf& brdf) {
+PackedTables packTables(std::span<const TableRows> tables) {
     PackedTables packed;
-    if (!brdf.table) return packed;
-    for (const TableRows& rows : exampleTables(brdf)) {
+    for (const TableRows& rows : tables) {
         packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
         packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
     }
     return packed;
+}
+
+PackedTables packTables(const Brdf& brdf) {
+    return brdf.table ? packTables(exampleTables(brdf)) : PackedTables{};
 }
 
 std::vector<BrdfRow> brdfRows(const Brdf& brdf, int perKind, uint64_t seed) {
@@ -228,7 +231,13 @@ BrdfEvaluator::BrdfEvaluator(const gl::ShaderLibrary& library, const Brdf& brdf)
     : brdf_(brdf), evaluator_(library, localSnippet(brdf)) {}
 
 std::vector<BrdfResult> BrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows) const {
-    const PackedTables tables = packTables(brdf_);
+    return evaluate(
+        rows, brdf_.table ? std::span<const TableRows>(exampleTables(brdf_)) : std::span<const TableRows>());
+}
+
+std::vector<BrdfResult> BrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows,
+                                                std::span<const TableRows> ofRows) const {
+    const PackedTables tables = packTables(ofRows);
     std::vector<float> inputs;
     for (const BrdfRow& row : rows) {
         append(inputs, row.wi);

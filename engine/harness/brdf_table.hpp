@@ -29,12 +29,13 @@ std::vector<BrdfRow> brdfRows(const Brdf& brdf, int perKind, uint64_t seed);
 /// denormal cosines, L = -V exactly, directions of zero length.
 std::vector<BrdfRow> hostileRows(const Brdf& brdf, uint64_t seed);
 
-/// The tables of a model's examples one after the other, as GLSL reads them, and where each starts.
+/// Tables one after the other, as GLSL reads them, and where each starts.
 struct PackedTables {
     std::vector<float> floats;
     std::vector<int> firstRow;
 };
-PackedTables packTables(const Brdf& brdf);
+PackedTables packTables(std::span<const TableRows> tables);
+PackedTables packTables(const Brdf& brdf);  ///< those of its examples
 
 /// What the GLSL functions of a model gave for one row.
 struct BrdfResult {
@@ -48,6 +49,9 @@ class BrdfEvaluator {
 public:
     BrdfEvaluator(const gl::ShaderLibrary& library, const Brdf& brdf);
     std::vector<BrdfResult> evaluate(const std::vector<BrdfRow>& rows) const;
+    /// With tables other than the examples: BrdfRow::table is an index into `tables`.
+    std::vector<BrdfResult> evaluate(const std::vector<BrdfRow>& rows,
+                                     std::span<const TableRows> tables) const;
 
 private:
     const Brdf& brdf_;

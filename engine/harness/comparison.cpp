@@ -11,23 +11,13 @@
 namespace lobe::harness {
 namespace {
 
-constexpr double kFactor = 16.0;
-
 constexpr double kRoundings = 4.0;
 
 /// The unit of tolerance of a row whose value does not depend on the rounding of its inputs.
 constexpr double kLeastUnit = kRoundings * kFloatRounding;
 
-/// Rows with a larger allowance say nothing about the formula.
-constexpr double kLargestAllowance = 0.1;
-
 /// A power below e^-87 is 0 before it is multiplied by a lobe's scale, at most (1e6 + 2) / (2 pi).
 constexpr double kUnderflow = 3e-33;
-
-/// Lobes that one rounding of a direction takes across this share of their width can't be followed by
-/// differences. A rounding turns the half vector by that much over cos(theta_d): where the directions nearly
-/// oppose each other, wide lobes are among them.
-constexpr double kNarrowest = 0.03;
 
 /// Beyond this a float is near its end: such values only have to be large and finite.
 constexpr double kLargest = 1e37;
@@ -51,27 +41,33 @@ std::string describe(const BrdfRow& row) {
     return text.str();
 }
 
+glm::dvec3 roundingUnit(const Brdf& brdf, const Directions& d, std::span<const double> values, Axes axes) {
+    const Condition condition = conditionOf(brdf, d, values);
+    const glm::dvec3 directions = axes == Axes::local ? condition.componentwise : condition.angular;
+    return kFloatRounding *
+           (kRoundings * condition.terms + directions + condition.length + condition.parameters);
+}
+
+bool tooNarrow(const Brdf& brdf, const Directions& d, std::span<const double> values) {
+    const double turning = kFloatRounding / (brdf.traits.halfVectorLobe ? 0.5 * glm::length(d.h) : 1.0);
+    return brdf.lobeSharpness(values) * turning > 0.03;
+}
+
 bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3& got) {
     const ParameterValues values = valuesOf(brdf_, row);
     const glm::dvec3 exact = brdf_.fCos(d, values);
     // Sixty evaluations of the twin, where a row's error alone does not tell.
     std::optional<glm::dvec3> known;
     const auto unitOf = [&](int channel) {
-        if (!known) {
-            const Condition condition = conditionOf(brdf_, d, values);
-            const glm::dvec3 directions = axes_ == Axes::local ? condition.componentwise : condition.angular;
-            known = kFloatRounding *
-                    (kRoundings * condition.terms + directions + condition.length + condition.parameters);
-        }
+        if (!known) known = roundingUnit(brdf_, d, values, axes_);
         return (*known)[channel];
     };
-    const double turning = kFloatRounding / (brdf_.traits.halfVectorLobe ? 0.5 * glm::length(d.h) : 1.0);
-    const bool unresolved = brdf_.lobeSharpness(values) * turning > kNarrowest;
+    const bool unresolved = tooNarrow(brdf_, d, values);
     for (int c = 0; c < 3; ++c) {
         ++count_;
         const double value = double(got[c]);
         if (!std::isfinite(value) || value < 0.0) return fail(row, c, value, "finite and not negative");
-        const auto unjudged = [&] { return unresolved || kFactor * unitOf(c) > kLargestAllowance; };
+        const auto unjudged = [&] { return unresolved || kAllowedUnits * unitOf(c) > kLargestAllowance; };
         if (exact[c] < 1e-38) {
             if (value < 1e-30) continue;
             if (!unjudged()) return fail(row, c, value, "below 1e-30");
@@ -88,13 +84,13 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
         const uint64_t ulps = ulpDistance(got[c], static_cast<float>(exact[c]));
         if (error <= worst_ * kLeastUnit && ulps <= worstUlp_) continue;
         if (unjudged()) {
-            if (error > kFactor * kLeastUnit) ++illConditioned_;
+            if (error > kAllowedUnits * kLeastUnit) ++illConditioned_;
             continue;
         }
         const double unit = unitOf(c);
-        if (error > kFactor * unit + kUnderflow / exact[c])
+        if (error > kAllowedUnits * unit + kUnderflow / exact[c])
             return fail(row, c, value,
-                        digits(exact[c], 9) + " within " + digits(kFactor * unit / kFloatRounding, 4) +
+                        digits(exact[c], 9) + " within " + digits(kAllowedUnits * unit / kFloatRounding, 4) +
                             " x 2^-24; off by " + digits(error / kFloatRounding, 4));
         if (exact[c] <= 1e6 * kUnderflow) continue;
         if (unit <= 2.0 * kLeastUnit) worstUlp_ = std::max(worstUlp_, ulps);

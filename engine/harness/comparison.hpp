@@ -20,6 +20,16 @@ enum class Axes {
     world   ///< in other axes: rounding turns them
 };
 
+/// 2^-24 (4 + c) of a row, channel by channel, of which kAllowedUnits are allowed.
+glm::dvec3 roundingUnit(const Brdf& brdf, const Directions& d, std::span<const double> values, Axes axes);
+inline constexpr double kAllowedUnits = 16.0;
+/// Relative allowance above which a row says nothing about the formula.
+inline constexpr double kLargestAllowance = 0.1;
+/// Whether one rounding of a direction takes the lobe across 3 % of its width or more, so that differences
+/// can't follow it. A rounding turns the half vector by that much over cos(theta_d): where the directions
+/// nearly oppose each other, wide lobes are among them.
+bool tooNarrow(const Brdf& brdf, const Directions& d, std::span<const double> values);
+
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:

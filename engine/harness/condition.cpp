@@ -10,10 +10,6 @@
 namespace lobe::harness {
 namespace {
 
-/// A few roundings of a float. Differences are taken over this step rather than in the limit, so that the top
-/// of a narrow lobe, where the slope vanishes, counts with its curvature.
-constexpr double kStep = 4.0 * kFloatRounding;
-
 /// Larger of |f(+step) - f| and |f(-step) - f|, over step and f, channel by channel.
 glm::dvec3 relativeSlope(const std::function<glm::dvec3(double)>& f, double step, const glm::dvec3& centre) {
     const glm::dvec3 difference = glm::max(glm::abs(f(step) - centre), glm::abs(f(-step) - centre)) / step;
@@ -40,7 +36,7 @@ double roundedSize(const Parameter& parameter, double value) {
 
 }  // namespace
 
-Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values) {
+Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values, double step) {
     Condition condition;
     const glm::dvec3 f = brdf.fCos(d, values);
     if (f == glm::dvec3(0.0)) return condition;
@@ -59,16 +55,16 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
                                        [&](double by) {
                                            return brdf.fCos({scaled(d.wi, by), d.wo}, values);
                                        },
-                                       kStep, f) +
+                                       step, f) +
                                    relativeSlope(
                                        [&](double by) {
                                            return brdf.fCos({d.wi, scaled(d.wo, by)}, values);
                                        },
-                                       kStep, f);
+                                       step, f);
     }
 
     // Never across the horizon, where f is cut off.
-    const double angle = std::min(kStep, 0.1 * std::min(d.wi.z, d.wo.z));
+    const double angle = std::min(step, 0.1 * std::min(d.wi.z, d.wo.z));
     const glm::dmat3 atLight = frameAbout(d.wi);
     const glm::dmat3 atEye = frameAbout(d.wo);
     const auto light = [&](int axis) {
@@ -95,7 +91,7 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
                 if (!brdf.traits.anglesOnly) (ofLight ? stretched.wi : stretched.wo) *= 1.0 + by;
                 return brdf.fCos(stretched, values);
             },
-            kStep, f);
+            step, f);
 
     size_t offset = 0;
     for (const Parameter& parameter : brdf.parameters) {
@@ -108,7 +104,7 @@ Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const dou
                     changed[offset] = values[offset] + by * size;
                     return brdf.fCos(d, changed);
                 },
-                kStep, f);
+                step, f);
         }
     }
     return condition;

@@ -3,12 +3,13 @@
 
 #include <glm/glm.hpp>
 
+#include "math/ulp.hpp"
 #include "shading/brdf.hpp"
 
 namespace lobe::harness {
 
-/// Condition numbers of f_r cos for each colour channel, by differences over four float
-/// roundings on the twin; 0 where f is 0.
+/// Condition numbers of f_r cos for each colour channel, by differences on the twin; 0 where f is
+/// 0.
 struct Condition {
     /// sum over the components x of both directions of |x df/dx| / f: what relative rounding of each
     /// component costs. Small at grazing angles, where a float still holds the cosine to 24 bits.
@@ -27,6 +28,9 @@ struct Condition {
     glm::dvec3 terms{1.0};
 };
 
-Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values);
+/// Differences over `step`, relative, absolute for angles. The default is a few roundings of a float, rather
+/// than the limit, so that the top of a narrow lobe, where the slope vanishes, counts with its curvature.
+Condition conditionOf(const Brdf& brdf, const Directions& d, std::span<const double> values,
+                      double step = 4.0 * kFloatRounding);
 
 }  // namespace lobe::harness

@@ -23,6 +23,19 @@ inline constexpr size_t kFresnelValues = 10;
 /// Wolf, Principles of Optics) with complex index eta + i k; Schlick, Computer Graphics Forum 13(3), 1994.
 glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta);
 
+/// The same for the angle between either direction and their half vector, to all digits near 0 too.
+glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& d);
+
+/// 1 - V.H, to all digits near 0 too.
+double oneMinusCosThetaD(const Directions& d);
+
+/// Squared amplitudes from Snell's law with the complex index eta + i k, perpendicular (s) and parallel (p)
+/// to the plane of incidence; unpolarised light has their mean.
+struct PolarisedReflectance {
+    double s, p;
+};
+PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta);
+
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);
 

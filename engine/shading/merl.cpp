@@ -19,25 +19,11 @@ const std::array<double, 3> kChannelScale{1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 15
 constexpr size_t kHeaderBytes = 12;
 constexpr size_t kMostCells = size_t{1} << 24;
 
-struct Cell {
-    double thetaH, thetaD, phiD;
-};
-
-Cell centre(const MerlSize& size, size_t h, size_t d, size_t p) {
+Directions centre(const MerlSize& size, size_t h, size_t d, size_t p) {
     const double th = (static_cast<double>(h) + 0.5) / static_cast<double>(size.thetaH);
-    return {kHalfPi * th * th, kHalfPi * (static_cast<double>(d) + 0.5) / static_cast<double>(size.thetaD),
-            glm::pi<double>() * (static_cast<double>(p) + 0.5) / static_cast<double>(size.phiD)};
-}
-
-/// Directions with these angles; the half vector lies in the xz plane.
-Directions directions(const Cell& cell) {
-    const glm::dvec3 difference(std::sin(cell.thetaD) * std::cos(cell.phiD),
-                                std::sin(cell.thetaD) * std::sin(cell.phiD), std::cos(cell.thetaD));
-    const double c = std::cos(cell.thetaH), s = std::sin(cell.thetaH);
-    const glm::dvec3 wi(c * difference.x + s * difference.z, difference.y,
-                        -s * difference.x + c * difference.z);
-    const glm::dvec3 h(s, 0.0, c);
-    return {wi, 2.0 * glm::dot(wi, h) * h - wi};
+    return fromHalfAndDifference(
+        kHalfPi * th * th, kHalfPi * (static_cast<double>(d) + 0.5) / static_cast<double>(size.thetaD),
+        glm::pi<double>() * (static_cast<double>(p) + 0.5) / static_cast<double>(size.phiD));
 }
 
 /// Integral of f_r cos over the hemisphere for light along the normal, where theta_h = theta_d = theta / 2
@@ -93,6 +79,16 @@ MerlSize sizeOf(std::span<const std::byte> file) {
 
 }  // namespace
 
+Directions fromHalfAndDifference(double thetaH, double thetaD, double phiD) {
+    const glm::dvec3 difference(std::sin(thetaD) * std::cos(phiD), std::sin(thetaD) * std::sin(phiD),
+                                std::cos(thetaD));
+    const double c = std::cos(thetaH), s = std::sin(thetaH);
+    const glm::dvec3 wi(c * difference.x + s * difference.z, difference.y,
+                        -s * difference.x + c * difference.z);
+    const glm::dvec3 h(s, 0.0, c);
+    return {wi, 2.0 * glm::dot(wi, h) * h - wi};
+}
+
 TableRows merlTable(std::span<const std::byte> file) {
     const MerlSize size = sizeOf(file);
     const size_t cells = size.cells();
@@ -119,7 +115,7 @@ TableRows tabulated(const MerlSize& size, const std::function<glm::dvec3(const D
     for (size_t h = 0; h < size.thetaH; ++h)
         for (size_t d = 0; d < size.thetaD; ++d)
             for (size_t p = 0; p < size.phiD; ++p, ++cell) {
-                const glm::dvec3 f = reflectance(directions(centre(size, h, d, p)));
+                const glm::dvec3 f = reflectance(centre(size, h, d, p));
                 for (int c = 0; c < 3; ++c)
                     rows[4 * cell + static_cast<size_t>(c)] = f[c];
             }

@@ -15,6 +15,10 @@ struct MerlSize {
     size_t cells() const { return thetaH * thetaD * phiD; }
 };
 
+/// The pair of directions of these angles in radians (Rusinkiewicz, EGWR 1998); its half vector lies in the
+/// xz plane. One of them may be below the horizon.
+Directions fromHalfAndDifference(double thetaH, double thetaD, double phiD);
+
 /// Rows as measured.glsl reads them from a file of the database (Matusik et al., ACM TOG 22(3), 2003): three
 /// little-endian int32 sizes, then all red, all green and all blue values as float64. Negative values mark
 /// cells that were not measured and become 0. Throws InputError.

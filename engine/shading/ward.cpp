@@ -15,11 +15,12 @@ double square(double x) {
 
 /// Ward 1992, equations 5a and 5b.
 double exponent(const glm::dvec3& unitH, const WardLobe& lobe) {
-    const double sine = std::hypot(unitH.x, unitH.y);
-    const double phi = std::atan2(unitH.y, unitH.x) - lobe.rotation;
-    const double widths = square(std::cos(phi) / lobe.alphaX) + square(std::sin(phi) / lobe.alphaY);
-    return lobe.form == WardForm::exact ? square(sine / unitH.z) * widths
-                                        : 2.0 * square(sine) * widths / (1.0 + unitH.z);
+    // sin(theta_h) times cos(phi_h) and sin(phi_h), phi_h from the turned tangent
+    const double c = std::cos(lobe.rotation);
+    const double s = std::sin(lobe.rotation);
+    const double widths =
+        square((c * unitH.x + s * unitH.y) / lobe.alphaX) + square((c * unitH.y - s * unitH.x) / lobe.alphaY);
+    return lobe.form == WardForm::exact ? widths / square(unitH.z) : 2.0 * widths / (1.0 + unitH.z);
 }
 
 double factor(const Directions& d, WardVariant variant) {

@@ -194,6 +194,10 @@ void Generator::readRange(DirectiveReader& reader) {
         reader.fail("log_uniform needs bounds of one sign, without 0");
     if (type_.isReal() && std::max(-low_, high_) > double(std::numeric_limits<float>::max()))
         reader.fail("the range must be one of floats");
+    if (type_.isReal()) {
+        low_ = double(static_cast<float>(low_));
+        high_ = double(static_cast<float>(high_));
+    }
     if (!type_.isReal() && (low_ < (type_.base == Base::natural ? 0.0 : -2147483648.0) ||
                             high_ > (type_.base == Base::natural ? 4294967295.0 : 2147483647.0)))
         reader.fail("the range must be one of " + type_.name());

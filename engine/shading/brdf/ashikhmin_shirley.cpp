@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "shading/fresnel.hpp"
 #include "shading/phong_family.hpp"
 
 namespace lobe::brdf_entry {
@@ -25,12 +26,9 @@ double lobe(const Directions& d, const Values& p) {
     const glm::dvec3 h = glm::normalize(d.h);
     const double phi = std::atan2(h.y, h.x) - p.rotation;
     const double exponent = p.nu * std::pow(std::cos(phi), 2.0) + p.nv * std::pow(std::sin(phi), 2.0);
-    const double sin2 = h.x * h.x + h.y * h.y;
-    // ln(N.H), to all digits near the peak
-    const double logCosine = sin2 < 0.5 ? 0.5 * std::log1p(-sin2) : std::log(h.z);
+    const double power = shading::cosinePower(h.z, std::hypot(h.x, h.y), exponent);
     const double vh = 0.5 * glm::length(d.h);
-    return std::sqrt((p.nu + 1.0) * (p.nv + 1.0)) / (8.0 * kPi) * std::exp(exponent * logCosine) /
-           (vh * std::max(d.wi.z, d.wo.z));
+    return std::sqrt((p.nu + 1.0) * (p.nv + 1.0)) / (8.0 * kPi) * power / (vh * std::max(d.wi.z, d.wo.z));
 }
 
 /// 1 - (1 - c / 2)^5, to all digits at grazing angles.
@@ -41,10 +39,7 @@ double throughCoat(double c) {
 glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     if (!shading::aboveSurface(d)) return glm::dvec3(0.0);
     const Values p = valuesOf(values);
-    const glm::dvec3 halfDifference = 0.5 * (d.wi - d.wo);
-    const double vh = std::min(0.5 * glm::length(d.h), 1.0);
-    const double oneMinus = glm::dot(halfDifference, halfDifference) / (1.0 + vh);  // 1 - V.H
-    const glm::dvec3 fresnel = p.specular + (1.0 - p.specular) * std::pow(oneMinus, 5.0);
+    const glm::dvec3 fresnel = p.specular + (1.0 - p.specular) * std::pow(shading::oneMinusCosThetaD(d), 5.0);
     // Equation 5.
     const glm::dvec3 base =
         28.0 / (23.0 * kPi) * p.diffuse * (1.0 - p.specular) * throughCoat(d.wi.z) * throughCoat(d.wo.z);

@@ -63,9 +63,29 @@ double effectiveRoughness(double k, double sigma) {
     return sigma / std::sqrt(1.0 + x * x);
 }
 
-/// ln of the series' term at m, without the factor exp(-g): m ln g - ln m! - ln m - q / m.
+/// x - ln(1 + x) for x = (g - m) / m, by its series where x is small.
+double logGap(double m, double g) {
+    const double x = (g - m) / m;
+    if (std::abs(x) > 0.1) return x - std::log(g / m);
+    double power = x * x, sum = 0.0;
+    for (int n = 2; n < 24; ++n, power *= -x)
+        sum += power / n;
+    return sum;
+}
+
+/// ln of the Poisson probability g^m exp(-g) / m!. Where m ln g and ln m! are large and nearly equal, by
+/// their difference: Stirling's series for m! leaves m (x - ln(1 + x)).
+double logPoisson(double m, double g) {
+    if (m < 10.0) return m * std::log(g) - g - std::lgamma(m + 1.0);
+    const double r2 = 1.0 / (m * m);
+    const double stirling =
+        (1.0 / 12.0 - r2 * (1.0 / 360.0 - r2 * (1.0 / 1260.0 - r2 * (1.0 / 1680.0 - r2 / 1188.0)))) / m;
+    return -m * logGap(m, g) - stirling - 0.5 * std::log(2.0 * kPi * m);
+}
+
+/// ln of the series' term at m.
 double logTerm(double m, double g, double q) {
-    return m * std::log(g) - g - std::lgamma(m + 1.0) - std::log(m) - q / m;
+    return logPoisson(m, g) - std::log(m) - q / m;
 }
 
 /// sum over m of g^m exp(-g) / (m! m) exp(-q / m), outwards from the largest term. Where the terms change
@@ -73,7 +93,6 @@ double logTerm(double m, double g, double q) {
 /// by exp(-2 pi^2 9).
 double series(double g, double q) {
     if (g <= 0.0) return 0.0;
-    if (g > 1e7) return std::exp(-q / g) / g;  // the paper's form for very rough surfaces
     double low = 1e-3, high = std::max(10.0, 2.0 * (g + std::sqrt(q)) + 10.0);
     const auto slope = [&](double m) { return std::log(g / m) + q / (m * m) - 1.5 / m; };
     for (int i = 0; i < 60 && high > (1.0 + 1e-9) * low; ++i) {
@@ -89,7 +108,7 @@ double series(double g, double q) {
         for (double m = direction > 0.0 ? centre : centre - step; m >= 1.0; m += direction) {
             const double term = std::exp(logTerm(m, g, q) - largest);
             sum += term;
-            if (term < 1e-18) break;
+            if (!(term >= 1e-18)) break;
         }
     return sum * step * std::exp(largest);
 }
@@ -102,7 +121,7 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     const double h2 = glm::dot(d.h, d.h);
     const double geometry = (h2 / cosines) * (h2 / cosines);
     const double s = shadowing(d.wi, p) * shadowing(d.wo, p);
-    const glm::dvec3 fresnel = shading::fresnelReflectance(p.fresnel, 0.5 * std::sqrt(h2));
+    const glm::dvec3 fresnel = shading::fresnelReflectance(p.fresnel, d);
     glm::dvec3 f = p.diffuse / kPi;
     for (int c = 0; c < 3; ++c) {
         const double waves = 1.0 / p.wavelength[c];

@@ -76,8 +76,8 @@ float planted_zero(float x) { return 1.0 / -x; }
 /// @test planted_step_down  @tag planted
 /// @in x: uniform(0, 1)
 /// @expect monotone increasing
-/// @must_fail falls by a thousandth at 0.7
-float planted_step(float x) { return x - (x > 0.7 ? 0.001 : 0.0); }
+/// @must_fail falls by a hundredth at 0.7
+float planted_step(float x) { return x - (x > 0.7 ? 0.01 : 0.0); }
 
 /// @test planted_plateau  @tag planted
 /// @in x: uniform(0, 1)
