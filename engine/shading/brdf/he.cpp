@@ -93,6 +93,9 @@ double logTerm(double m, double g, double q) {
 /// by exp(-2 pi^2 9).
 double series(double g, double q) {
     if (g <= 0.0) return 0.0;
+    // The paper's form for very rough surfaces, off by (q / g)^2 / (2 g) relative: doubles of the size of g
+    // are no longer dense enough for steps of the peak's width.
+    if (g > 1e15) return std::exp(-q / g) / g;
     double low = 1e-3, high = std::max(10.0, 2.0 * (g + std::sqrt(q)) + 10.0);
     const auto slope = [&](double m) { return std::log(g / m) + q / (m * m) - 1.5 / m; };
     for (int i = 0; i < 60 && high > (1.0 + 1e-9) * low; ++i) {
