@@ -1,12 +1,7 @@
 // lobe-check eval: a GLSL function, a registered model or its twin over a CSV table.
 #include <algorithm>
-#include <chrono>
-#include <condition_variable>
 #include <cstdio>
-#include <cstring>
 #include <iostream>
-#include <mutex>
-#include <thread>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -14,6 +9,8 @@
 #include "commands.hpp"
 #include "gl/context.hpp"
 #include "harness/table_evaluation.hpp"
+#include "spool.hpp"
+#include "watchdog.hpp"
 
 namespace lobe::app {
 namespace {
@@ -27,98 +24,6 @@ struct EvalOptions {
     bool twin = false;
     int device = -1;
     double timeLimit = 60.0;
-};
-
-/// Ends the program when the driver has been at one batch of rows for too long: GLSL can loop forever, and
-/// OpenGL has no way to stop it. Nothing has been written by then.
-class Watchdog {
-public:
-    explicit Watchdog(const EvalOptions& options)
-        : what_(options.model.empty() ? options.file + ": " + options.function : options.model),
-          limit_(options.timeLimit),
-          thread_([this] { watch(); }) {}
-    ~Watchdog() {
-        {
-            const std::lock_guard lock(mutex_);
-            ended_ = true;
-        }
-        changed_.notify_one();
-        thread_.join();
-    }
-    Watchdog(const Watchdog&) = delete;
-    Watchdog& operator=(const Watchdog&) = delete;
-
-    void start() { set(true); }
-    void stop() { set(false); }
-
-private:
-    void set(bool running) {
-        {
-            const std::lock_guard lock(mutex_);
-            running_ = running;
-            ++turn_;
-        }
-        changed_.notify_one();
-    }
-
-    void watch() {
-        std::unique_lock lock(mutex_);
-        while (!ended_) {
-            if (!running_) {
-                changed_.wait(lock);
-                continue;
-            }
-            const uint64_t turn = turn_;
-            const auto moved = [&] { return ended_ || turn_ != turn; };
-            if (changed_.wait_for(lock, std::chrono::duration<double>(limit_), moved)) continue;
-            std::fprintf(stderr,
-                         "lobe-check: error: %s: no result after %g s (--time-limit); an endless loop?\n",
-                         what_.c_str(), limit_);
-            std::_Exit(static_cast<int>(ExitCode::checkFailed));
-        }
-    }
-
-    std::string what_;
-    double limit_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    bool running_ = false, ended_ = false;
-    uint64_t turn_ = 0;
-    std::thread thread_;
-};
-
-/// Results wait in a file without a name until all are there.
-class Spool {
-public:
-    Spool() : file_(std::tmpfile()) {
-        if (file_ == nullptr) fail();
-    }
-    ~Spool() { std::fclose(file_); }
-    Spool(const Spool&) = delete;
-    Spool& operator=(const Spool&) = delete;
-
-    void write(const std::string& text) {
-        if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail();
-    }
-
-    void copyTo(std::FILE* target, const std::string& name) {
-        std::rewind(file_);
-        std::vector<char> block(1 << 16);
-        while (const size_t size = std::fread(block.data(), 1, block.size(), file_))
-            if (std::fwrite(block.data(), 1, size, target) != size) failTarget(name);
-        if (std::ferror(file_) != 0) fail();
-        if (std::fflush(target) != 0) failTarget(name);
-    }
-
-    [[noreturn]] static void failTarget(const std::string& name) {
-        throw OutputError(name + ": can't be written: " + std::strerror(errno));
-    }
-
-private:
-    [[noreturn]] static void fail() {
-        throw OutputError(std::string("temporary file: can't be written: ") + std::strerror(errno));
-    }
-    std::FILE* file_;
 };
 
 EvalOptions optionsOf(CommandLine& line, const std::vector<std::string>& arguments, bool& help) {
@@ -163,7 +68,8 @@ std::unique_ptr<TableEvaluation> evaluationFor(const EvalOptions& options, const
 }
 
 void evaluate(const EvalOptions& options, CsvReader& reader, Spool& spool) {
-    Watchdog watchdog(options);
+    Watchdog watchdog(options.model.empty() ? options.file + ": " + options.function : options.model,
+                      options.timeLimit);
     watchdog.start();  // compilers loop too
     const std::unique_ptr<TableEvaluation> evaluation = evaluationFor(options, reader);
     watchdog.stop();

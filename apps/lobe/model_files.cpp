@@ -60,6 +60,7 @@ void loadModelFile(const std::string& file) {
                          " models from files; expected fewer");
     ModelFile added{path, readBrdfSource(file), {}, {}};
     std::vector<Brdf> models;
+    models.reserve(files.size() + 1);
     for (const ModelFile& known : files)
         models.push_back(brdfFromSource(known.source));
     models.push_back(brdfFromSource(added.source));

@@ -189,7 +189,7 @@ PlotKind albedoKind() {
     return {"albedo", "Directional albedo against the angle of incidence and a parameter.",
             [](CLI::App& app, PlotOptions& options) {
                 addModel(app, options, "model");
-                addSweep(app, options, "values of the parameter [6 curves, or 32 rows of a map]");
+                addSweep(app, options, "values of the parameter [6 curves, or 24 rows of a map]");
                 app.add_option("--as", options.style, "curves or map [curves]");
                 addView(app, options);
             },
@@ -199,7 +199,7 @@ PlotKind albedoKind() {
                     static_cast<plot::AlbedoStyle>(choiceOf("--as", options.style, {"curves", "map"}));
                 const bool map = style == plot::AlbedoStyle::map;
                 const Sweep sweep =
-                    sweepOf(model, options.over, options.range, stepsOf(options, map ? 32 : 6));
+                    sweepOf(model, options.over, options.range, stepsOf(options, map ? 24 : 6));
                 if (map && sweep.over.empty())
                     throw UsageError("--as map: " + model.brdf->name +
                                      " has no parameter to sweep; expected curves");
@@ -256,7 +256,7 @@ PlotKind errorKind() {
     return {"error", "Error of a model's GLSL against its double twin, over incidence and a parameter.",
             [](CLI::App& app, PlotOptions& options) {
                 addModel(app, options, "model");
-                addSweep(app, options, "values of the parameter [32]");
+                addSweep(app, options, "values of the parameter [24]");
                 app.add_option("--show", options.show,
                                "ulp, or share (of what the rounding of inputs allows) [ulp]");
                 app.add_option("--azimuth", options.azimuth,
@@ -266,7 +266,7 @@ PlotKind errorKind() {
                 const plot::Model model = modelOf(options.brdf, options.set);
                 const auto measure =
                     static_cast<plot::ErrorMeasure>(choiceOf("--show", options.show, {"ulp", "share"}));
-                const Sweep sweep = sweepOf(model, options.over, options.range, stepsOf(options, 32));
+                const Sweep sweep = sweepOf(model, options.over, options.range, stepsOf(options, 24));
                 const plot::ErrorRequest request{model, sweep.over, sweep.values,
                                                  plot::linearSteps(0.0, kSteepestAngle, 45),
                                                  azimuthOf(options)};

@@ -70,7 +70,7 @@ std::string modelForAll(const Scene& scene, const Settings& settings) {
                                               [&](const Material& m) { return m.brdf == loaded[0]; });
         return loaded.size() == 1 && !named ? loaded[0] : "";
     }
-    const std::string name = brdf.get<std::string>();
+    std::string name = brdf.get<std::string>();
     const Brdf& model = requireBrdf(name);
     // The picture's record has to name all that it is made of.
     if (!model.file.empty() && std::find(loaded.begin(), loaded.end(), name) == loaded.end())

@@ -67,6 +67,8 @@ bool Comparison::check(const BrdfRow& row, const Directions& d, const glm::vec3&
         ++count_;
         const double value = double(got[c]);
         if (!std::isfinite(value) || value < 0.0) return fail(row, c, value, "finite and not negative");
+        // No comparison with it would fail.
+        if (std::isnan(exact[c])) return fail(row, c, value, "a value of the twin, which gave NaN");
         const auto unjudged = [&] { return unresolved || kAllowedUnits * unitOf(c) > kLargestAllowance; };
         if (exact[c] < 1e-38) {
             if (value < 1e-30) continue;

@@ -55,7 +55,6 @@ struct CsvReader::State {
     State(std::unique_ptr<std::istream> owned, std::istream& from, std::string fileName)
         : file(std::move(owned)), stream(&from), name(std::move(fileName)) {
         if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) throw std::bad_alloc();
-        readHeader();
     }
     ~State() { csv_free(&parser); }
     State(const State&) = delete;
@@ -126,15 +125,19 @@ struct CsvReader::State {
 CsvReader::CsvReader(const std::filesystem::path& path) {
     if (path == "-") {
         state_ = std::make_unique<State>(nullptr, std::cin, "standard input");
-        return;
+    } else {
+        auto stream = openFile(path);
+        std::istream& from = *stream;
+        state_ = std::make_unique<State>(std::move(stream), from, path.string());
     }
-    auto stream = openFile(path);
-    std::istream& from = *stream;
-    state_ = std::make_unique<State>(std::move(stream), from, path.string());
+    state_->readHeader();
 }
 
 CsvReader::CsvReader(std::istream& stream, std::string name)
-    : state_(std::make_unique<State>(nullptr, stream, std::move(name))) {}
+    : state_(std::make_unique<State>(nullptr, stream, std::move(name))) {
+    state_->readHeader();
+}
+
 CsvReader::CsvReader(CsvReader&&) noexcept = default;
 CsvReader& CsvReader::operator=(CsvReader&&) noexcept = default;
 CsvReader::~CsvReader() = default;

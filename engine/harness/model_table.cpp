@@ -1,78 +1,15 @@
 #include "harness/model_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <map>
-#include <set>
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
+#include "harness/column_names.hpp"
 
 namespace lobe::harness {
 namespace {
-
-constexpr const char* kChannels[3] = {"_r", "_g", "_b"};
-
-/// Places of the columns of an rgb quantity: three, or one three times.
-struct Channels {
-    std::array<size_t, 3> at{};
-};
-
-/// Finds columns by name and remembers which were asked for.
-class ColumnNames {
-public:
-    ColumnNames(const std::vector<std::string>& columns, std::string file)
-        : columns_(columns), file_(std::move(file)) {}
-
-    std::optional<size_t> find(const std::string& name) {
-        known_.push_back(name);
-        const auto found = std::find(columns_.begin(), columns_.end(), name);
-        if (found == columns_.end()) return {};
-        const auto index = static_cast<size_t>(found - columns_.begin());
-        used_.insert(index);
-        return index;
-    }
-
-    size_t require(const std::string& name) {
-        if (const auto index = find(name)) return *index;
-        fail("no column " + name + "; expected lx, ly, lz, vx, vy, vz" + didYouMean(name, columns_));
-    }
-
-    /// One column for all channels, or three.
-    std::optional<Channels> findRgb(const std::string& name) {
-        const auto all = find(name);
-        std::array<std::optional<size_t>, 3> each;
-        for (size_t c = 0; c < 3; ++c)
-            each[c] = find(name + kChannels[c]);
-        const auto there =
-            std::count_if(each.begin(), each.end(), [](const auto& e) { return e.has_value(); });
-        if (all && there > 0) fail("columns " + name + " and " + name + "_r, _g or _b; expected either");
-        if (all) return Channels{{*all, *all, *all}};
-        if (there == 0) return {};
-        for (size_t c = 0; c < 3; ++c)
-            if (!each[c])
-                fail("no column " + name + kChannels[c] + "; expected " + name + "_r, " + name + "_g and " +
-                     name + "_b");
-        return Channels{{*each[0], *each[1], *each[2]}};
-    }
-
-    void refuseOthers(const std::string& model) const {
-        for (size_t i = 0; i < columns_.size(); ++i)
-            if (!used_.contains(i))
-                fail("column '" + columns_[i] + "' is none of " + model + didYouMean(columns_[i], known_));
-    }
-
-    [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ":1: " + what); }
-
-private:
-    const std::vector<std::string>& columns_;
-    std::string file_;
-    std::set<size_t> used_;
-    std::vector<std::string> known_;
-};
 
 /// Where one parameter comes from.
 struct ParameterSource {
@@ -381,38 +318,6 @@ ModelColumns::Row ModelColumns::read(const CsvRow& row) {
     result.values = s.values;
     result.table = s.table;
     return result;
-}
-
-TableRows tableForAllRows(const Brdf& brdf, const std::string& nameOrFile) {
-    if (!brdf.table) throw UsageError("--table: " + brdf.name + " has no table");
-    std::vector<std::string> names;
-    for (auto& [name, rows] : brdf.table->examples()) {
-        if (name == nameOrFile) return std::move(rows);
-        names.push_back(name);
-    }
-    if (!brdf.table->fromFile) {
-        std::string list;
-        for (const std::string& name : names)
-            list += (list.empty() ? "" : ", ") + name;
-        throw InputError("--table: '" + nameOrFile + "'; expected one of " + list +
-                         didYouMean(nameOrFile, names));
-    }
-    std::error_code failed;
-    const auto size = std::filesystem::file_size(nameOrFile, failed);
-    constexpr uintmax_t kLargest = uintmax_t{1} << 30;
-    if (failed)
-        throw InputError(nameOrFile + ": can't be read: " + failed.message() + didYouMean(nameOrFile, names));
-    if (size > kLargest)
-        throw InputError(nameOrFile + ": " + std::to_string(size) + " bytes; expected at most 1 GiB");
-    std::vector<std::byte> bytes(size);
-    std::ifstream stream(nameOrFile, std::ios::binary);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        throw InputError(nameOrFile + ": can't be read: " + std::strerror(errno));
-    try {
-        return brdf.table->fromFile(bytes);
-    } catch (const InputError& error) {
-        throw InputError(nameOrFile + ": " + error.what());
-    }
 }
 
 }  // namespace lobe::harness

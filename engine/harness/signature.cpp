@@ -234,6 +234,7 @@ std::vector<GlslLeaf> leavesOf(const GlslDeclarations& declarations, const std::
     const auto [scalar, count] = shapeOf(type);
     if (count == 1) return {{path, scalar}};
     std::vector<GlslLeaf> leaves;
+    leaves.reserve(static_cast<size_t>(count));
     for (int c = 0; c < count; ++c)
         leaves.push_back({path + "." + "xyzw"[c], scalar});
     if (count > 1) return leaves;

@@ -42,12 +42,16 @@ double ulpsApart(double got, double exact) {
     return std::abs(got - exact) / spacing;
 }
 
-/// Share of the allowance; 0 for rows that say nothing about the formula.
-double shareOf(const Model& model, const Directions& d, double got, double exact, int channel) {
-    if (harness::tooNarrow(*model.brdf, d, model.values) || exact < kSmallest) return 0.0;
-    const double allowance = harness::kAllowedUnits * harness::roundingUnit(*model.brdf, d, model.values,
-                                                                            harness::Axes::local)[channel];
-    return allowance > harness::kLargestAllowance ? 0.0 : std::abs(got - exact) / exact / allowance;
+/// Share of the allowance by channel; 0 where a value says nothing about the formula.
+glm::dvec3 shareOf(const Model& model, const Directions& d, const glm::dvec3& got, const glm::dvec3& exact) {
+    glm::dvec3 share(0.0);
+    if (harness::tooNarrow(*model.brdf, d, model.values)) return share;
+    const glm::dvec3 allowance =
+        harness::kAllowedUnits * harness::roundingUnit(*model.brdf, d, model.values, harness::Axes::local);
+    for (int c = 0; c < 3; ++c)
+        if (exact[c] >= kSmallest && allowance[c] <= harness::kLargestAllowance)
+            share[c] = std::abs(got[c] - exact[c]) / exact[c] / allowance[c];
+    return share;
 }
 
 ErrorCell cellOf(const Model& model, std::span<const Pair> pairs, std::span<const Sample> samples) {
@@ -55,11 +59,11 @@ ErrorCell cellOf(const Model& model, std::span<const Pair> pairs, std::span<cons
     for (size_t i = 0; i < pairs.size(); ++i) {
         const Directions d = harness::directionsOf(rowOf(model, pairs[i]));
         const glm::dvec3 exact = model.brdf->fCos(d, model.values);
+        const glm::dvec3 share = shareOf(model, d, samples[i].fCos, exact);
         for (int c = 0; c < 3; ++c) {
-            if (exact[c] < kSmallest || (c > 0 && exact[c] == exact[0])) continue;
-            const double got = samples[i].fCos[c];
-            cell.ulp = std::max(cell.ulp, ulpsApart(got, exact[c]));
-            cell.share = std::max(cell.share, shareOf(model, d, got, exact[c], c));
+            if (exact[c] < kSmallest) continue;
+            cell.ulp = std::max(cell.ulp, ulpsApart(samples[i].fCos[c], exact[c]));
+            cell.share = std::max(cell.share, share[c]);
         }
     }
     return cell;

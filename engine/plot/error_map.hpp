@@ -20,7 +20,7 @@ struct ErrorCell {
     double share;  ///< of what the rounding of inputs allows (harness/comparison.hpp); above 1 is a failure
 };
 
-inline constexpr int kErrorViews = 48;
+inline constexpr int kErrorViews = 32;
 
 struct ErrorMap {
     ErrorRequest request;

@@ -11,7 +11,7 @@ struct SurfaceRequest {
     Quantity quantity = Quantity::fCos;
     Channel channel = Channel::luminance;
     double azimuth = 0.0;
-    int rings = 49;    ///< from the mirrored direction to the horizon
+    int rings = 64;    ///< from the mirrored direction to the horizon
     int sectors = 90;  ///< around it
 };
 

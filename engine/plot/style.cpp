@@ -114,7 +114,15 @@ std::string ticksText(const Ticks& ticks) {
     return text + ")";
 }
 
+double roundBelow(double maximum) {
+    const double power = std::pow(10.0, std::floor(std::log10(maximum)));
+    for (double factor : {5.0, 2.0})
+        if (factor * power <= maximum) return factor * power;
+    return power;
+}
+
 std::vector<double> roundSteps(double maximum, int count) {
+    if (!(maximum > 0.0)) return {0.0};
     const double rough = maximum / count;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     double step = 10.0 * power;
@@ -150,6 +158,13 @@ std::string axisName(const Model& model, const std::string& parameter) {
 std::string heatMapCommands(const HeatMap& map) {
     const auto last = [](const std::vector<double>& v) { return double(v.size()) - 0.5; };
     const bool wide = isWide(map.y.front(), map.y.back());
+    // A single row has no value to name.
+    const std::string yTicks = map.y.size() == 1
+                                   ? "unset ytics"
+                                   : "set ytics " + ticksOf(map.y,
+                                                            wide ? roundPowers(map.y.front(), map.y.back())
+                                                                 : roundSteps(map.y.back(), 6),
+                                                            wide);
     std::vector<double> xTicks;
     for (double x = map.x.front(); x <= map.x.back(); x += map.xStep)
         xTicks.push_back(x);
@@ -167,13 +182,11 @@ std::string heatMapCommands(const HeatMap& map) {
            "set bmargin at screen bottom + 70 * pixel\nset tmargin at screen top - 10 * pixel\n"
            "unset key\nset tics out\nset xrange [-0.5:" +
            numberText(last(map.x)) + "]\nset yrange [-0.5:" + numberText(last(map.y)) + "]\nset xtics " +
-           ticksOf(map.x, xTicks, false) + "\nset ytics " +
-           ticksOf(map.y, wide ? roundPowers(map.y.front(), map.y.back()) : roundSteps(map.y.back(), 6),
-                   wide) +
-           "\nset xlabel " + gnuplotText(map.xName) + " noenhanced\nset ylabel " + gnuplotText(map.yName) +
-           " noenhanced\nset cblabel " + gnuplotText(map.zName) + " noenhanced\nset cbrange [" +
-           numberText(map.zMinimum) + ":" + numberText(map.zMaximum) + "]\n" +
-           (map.zIsLog ? "set logscale cb\n" : "") + "plot $map using 1:2:3 with image\n";
+           ticksOf(map.x, xTicks, false) + "\n" + yTicks + "\nset xlabel " + gnuplotText(map.xName) +
+           " noenhanced\nset ylabel " + gnuplotText(map.yName) + " noenhanced\nset cblabel " +
+           gnuplotText(map.zName) + " noenhanced\nset cbrange [" + numberText(map.zMinimum) + ":" +
+           numberText(map.zMaximum) + "]\n" + (map.zIsLog ? "set logscale cb\n" : "") +
+           "plot $map using 1:2:3 with image\n";
 }
 
 }  // namespace lobe::plot

@@ -30,6 +30,9 @@ std::string channelText(Channel channel);
 using Ticks = std::vector<std::pair<double, std::string>>;
 std::string ticksText(const Ticks& ticks);
 
+/// The largest of 1, 2 and 5 times a power of ten that is at most `maximum` > 0.
+double roundBelow(double maximum);
+
 /// Round values from 0 to `maximum`, about `count` of them.
 std::vector<double> roundSteps(double maximum, int count);
 /// 1, 2 and 5 times powers of ten from `minimum` to `maximum`, or powers only where those are many.

@@ -42,46 +42,34 @@ Drawing draw(const Surface& surface) {
                                                          "° from the tangent") +
                            "; grey arrow: incident light"};
     std::vector<std::string> lines;
-    double reach = 0.0;
-    glm::dvec3 low(0.0), high(0.0);
     for (const auto& ring : surface.rings) {
         for (const SurfacePoint& point : ring) {
             const glm::dvec3 p = point.direction * point.value;
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-            reach = std::max(reach, glm::length(p));
             lines.push_back(numberText(p.x) + " " + numberText(p.y) + " " + numberText(p.z) + " " +
                             numberText(point.value));
         }
         lines.emplace_back();
     }
-    if (reach == 0.0) reach = 1.0;
+    // The same half of a cube about every lobe, so that it always fits.
+    const double reach = highest > 0.0 ? 1.02 * highest : 1.0;
     const glm::dvec3 light = toLight(request.incidence, request.azimuth);
-    low = glm::min(low, 0.6 * reach * light) - 0.05 * reach;
-    high = glm::max(high, 0.6 * reach * light) + 0.05 * reach;
-    // A narrow lobe keeps some ground to stand on.
-    for (int c = 0; c < 2; ++c) {
-        low[c] = std::min(low[c], -0.35 * reach);
-        high[c] = std::max(high[c], 0.35 * reach);
-    }
-    const double step = roundSteps(reach, 4)[1];
+    const double step = roundBelow(reach);
     std::string& text = drawing.commands;
     text = dataBlock("surface", lines) +
-           "set lmargin at screen 0.02\nset rmargin at screen 0.84\n"
-           "set bmargin at screen bottom + 10 * pixel\nset tmargin at screen top\n"
-           "set view 62,35,1.35\nset view equal xyz\nset xyplane at 0\nunset key\nset border 31\n"
-           "set xrange [" +
-           numberText(low.x) + ":" + numberText(high.x) + "]\nset yrange [" + numberText(low.y) + ":" +
-           numberText(high.y) + "]\nset zrange [0:" + numberText(high.z) + "]\nset tics " + numberText(step) +
+           "set lmargin at screen 0.05\nset rmargin at screen 0.84\n"
+           "set bmargin at screen bottom + 24 * pixel\nset tmargin at screen top\n"
+           "set view 62,35,1.02\nset view equal xyz\nset xyplane at 0\nunset key\nset border 31\n"
+           "R = " +
+           numberText(reach) + "\nset xrange [-R:R]\nset yrange [-R:R]\nset zrange [0:R]\nset tics " +
+           numberText(step) +
            "\nset xtics offset 0,-0.5\nset ytics offset 0.8,-0.4\nset cbtics auto\nset xlabel \"x\"\nset "
-           "ylabel \"y\"\nset zlabel \"z\"\nset cblabel " +
-           gnuplotText(quantityText(request.quantity)) +
-           " noenhanced\nset cbrange [0:" + numberText(highest > 0.0 ? highest : 1.0) +
+           "ylabel \"y\"\nset zlabel \"z\" offset 3,0\nset cblabel " +
+           gnuplotText(quantityText(request.quantity)) + " noenhanced\nset cbrange [0:" + numberText(reach) +
            "]\n"
            "set colorbox user origin screen 0.87, screen bottom + 90 * pixel size screen 0.025, screen 0.5\n"
            "set pm3d depthorder border linewidth 0.15 linecolor rgb \"#40404040\"\n"
            "set arrow from " +
-           pointText(0.6 * reach * light) + " to " + pointText(0.03 * reach * light) +
+           pointText(0.8 * reach * light) + " to " + pointText(0.03 * reach * light) +
            " head filled linewidth 2 linecolor rgb \"#777777\"\n"
            "splot $surface using 1:2:3:4 with pm3d\n";
     return drawing;

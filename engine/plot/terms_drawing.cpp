@@ -80,7 +80,7 @@ Drawing draw(const Terms& terms) {
     for (const TermsRow& row : terms.rows)
         highest = std::max(highest, peakOf(row.cells[3]));
     const double radius = highest > 0.0 ? 1.08 * highest : 1.0;
-    const double ring = highest > 0.0 ? roundSteps(highest, 2)[1] : 1.0;
+    const double ring = highest > 0.0 ? roundBelow(highest) : 1.0;
     drawing.caption = {describe(request.model),
                        "Radius: radiance for light of irradiance 1 on a facing surface and surroundings of "
                        "radiance " +

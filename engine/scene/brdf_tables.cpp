@@ -38,7 +38,8 @@ void placeTables(std::vector<Material>& materials) {
         material.values[table.place] = known != placed.end() ? known->second : next;
         if (known != placed.end()) continue;
         placed.emplace_back(table.rows, next);
-        next += static_cast<double>(table.rows.size() / 4);
+        const size_t rows = table.rows.size() / 4;
+        next += static_cast<double>(rows);
     }
 }
 

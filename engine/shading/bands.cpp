@@ -116,10 +116,10 @@ const std::vector<Band>& bandsOf(const MetalSpectrum& metal, int count) {
     return made(metal, count).bands;
 }
 
-glm::dvec3 bandReflectance(const std::vector<Band>& bands, double cosTheta) {
+glm::dvec3 bandReflectance(const std::vector<Band>& bands, double cosTheta, double oneMinusCos) {
     glm::dvec3 sum(0.0);
     for (const Band& band : bands)
-        sum += band.weight * exactReflectance(band.index, cosTheta);
+        sum += band.weight * exactReflectance(band.index, cosTheta, oneMinusCos);
     return glm::max(sum, glm::dvec3(0.0));
 }
 

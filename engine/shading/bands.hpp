@@ -25,7 +25,10 @@ const std::vector<Band>& bandsOf(const MetalSpectrum& metal, int count);
 
 /// Linear sRGB reflectance at cos(theta): sum of weight times Fresnel's exact reflectance, at least 0 a
 /// channel.
-glm::dvec3 bandReflectance(const std::vector<Band>& bands, double cosTheta);
+glm::dvec3 bandReflectance(const std::vector<Band>& bands, double cosTheta, double oneMinusCos);
+inline glm::dvec3 bandReflectance(const std::vector<Band>& bands, double cosTheta) {
+    return bandReflectance(bands, cosTheta, 1.0 - cosTheta);
+}
 
 /// Rows that fresnel_bands() of common/fresnel.glsl reads: the number of groups of three bands in x; then, a
 /// group, a row of eta, a row of k, and the weights of each band.

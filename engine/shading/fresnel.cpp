@@ -13,7 +13,25 @@ double schlick(double f0, double oneMinusCos) {
     return f0 + (1.0 - f0) * std::pow(oneMinusCos, 5.0);
 }
 
-PolarisedReflectance polarised(Complex index, double cosTheta, double oneMinusCos) {
+glm::dvec3 reflectanceAt(std::span<const double> values, double cosTheta, double oneMinusCos) {
+    const auto type = static_cast<FresnelType>(static_cast<int>(values[0]));
+    if (type == FresnelType::bands)
+        return bandReflectance(bandsIn(values.subspan(4, 3)), cosTheta, oneMinusCos);
+    glm::dvec3 reflectance;
+    for (size_t i = 0; i < 3; ++i) {
+        const double eta = values[4 + i];
+        const double k = type == FresnelType::conductor ? values[7 + i] : 0.0;
+        reflectance[static_cast<int>(i)] = type == FresnelType::schlick
+                                               ? schlick(values[1 + i], oneMinusCos)
+                                               : exactReflectance({eta, k}, cosTheta, oneMinusCos);
+    }
+    return reflectance;
+}
+
+}  // namespace
+
+/// Amplitudes of both polarisations from Snell's law with a complex index.
+PolarisedReflectance polarisedReflectance(Complex index, double cosTheta, double oneMinusCos) {
     const double sin2 = oneMinusCos * (1.0 + cosTheta);
     const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
     const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
@@ -21,33 +39,13 @@ PolarisedReflectance polarised(Complex index, double cosTheta, double oneMinusCo
     return {std::norm(s), std::norm(p)};
 }
 
-double exact(Complex index, double cosTheta, double oneMinusCos) {
-    const auto [s, p] = polarised(index, cosTheta, oneMinusCos);
+double exactReflectance(Complex index, double cosTheta, double oneMinusCos) {
+    const auto [s, p] = polarisedReflectance(index, cosTheta, oneMinusCos);
     return 0.5 * (s + p);
 }
 
-glm::dvec3 reflectanceAt(std::span<const double> values, double cosTheta, double oneMinusCos) {
-    const auto type = static_cast<FresnelType>(static_cast<int>(values[0]));
-    if (type == FresnelType::bands) return bandReflectance(bandsIn(values.subspan(4, 3)), cosTheta);
-    glm::dvec3 reflectance;
-    for (size_t i = 0; i < 3; ++i) {
-        const double eta = values[4 + i];
-        const double k = type == FresnelType::conductor ? values[7 + i] : 0.0;
-        reflectance[static_cast<int>(i)] = type == FresnelType::schlick
-                                               ? schlick(values[1 + i], oneMinusCos)
-                                               : exact({eta, k}, cosTheta, oneMinusCos);
-    }
-    return reflectance;
-}
-
-}  // namespace
-
 double exactReflectance(Complex index, double cosTheta) {
-    return exact(index, cosTheta, 1.0 - cosTheta);
-}
-
-PolarisedReflectance polarisedReflectance(Complex index, double cosTheta) {
-    return polarised(index, cosTheta, 1.0 - cosTheta);
+    return exactReflectance(index, cosTheta, 1.0 - cosTheta);
 }
 
 std::vector<Parameter> fresnelParameters() {

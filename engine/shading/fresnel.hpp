@@ -14,6 +14,8 @@ enum class FresnelType : uint8_t { schlick, dielectric, conductor, bands };
 
 /// Exact, for one wavelength.
 double exactReflectance(std::complex<double> index, double cosTheta);
+/// 1 - cos(theta) given along, to all digits near 0 too.
+double exactReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
 /// Parameters `fresnel` (the type), `f0`, `eta`, `k`: the scene format's object "fresnel".
 std::vector<Parameter> fresnelParameters();
@@ -34,7 +36,7 @@ double oneMinusCosThetaD(const Directions& d);
 struct PolarisedReflectance {
     double s, p;
 };
-PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta);
+PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);

@@ -59,6 +59,11 @@ class Plot(LobeTest):
             self.plot("lobes", "--brdf", name.strip(), "-o", f"{name.strip()}.svg")
             xml.etree.ElementTree.fromstring(self.read(f"{name.strip()}.svg"))
 
+    def test_models_without_a_parameter_to_sweep(self):
+        for kind in ("error", "albedo", "lobe3d", "slice"):
+            self.plot(kind, "--brdf", "lambert", "-o", kind + ".svg")
+        self.assertIn("no parameter", self.plot("albedo", "--brdf", "lambert", "--as", "map", "-o", "x.svg", expect=2).stderr)
+
     def test_values(self):
         rows = list(csv.DictReader(io.StringIO(self.plot(
             "lobes", "--brdf", "lambert", "-D", "diffuse=0.5", "--incidence", "60", "-o", "-", "--format", "csv").stdout)))
@@ -119,7 +124,7 @@ class Plot(LobeTest):
                                 (["lobes", "--brdf", "phong", "--size", "10,10", *out], "320 to 8192"),
                                 (["lobes", "--brdf", "phong", "--size", "1e9,1e9", *out], "320 to 8192"),
                                 (["lobes", "--brdf", "phong", "--bakend", "egl", *out], "did you mean '--backend'"),
-                                (["lobes", "--brdf", "phong", "--backend", "vulkan", *out], "expected one of"),
+                                (["lobes", "--brdf", "phong", "--backend", "vulkan", *out], "expected auto, egl"),
                                 (["lobes", "--brdf", "phong", "--twin", "--backend", "egl", *out], "--backend"),
                                 (["table", "--brdf", "lambert", *out], "expected one of"),
                                 (["albedo", "--brdf", "phong", "--over", "shine", *out], "did you mean 'shininess'"),

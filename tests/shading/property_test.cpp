@@ -113,6 +113,28 @@ TEST(Properties, AlbedoAtMostOneExactlyWhereClaimed) {
     }
 }
 
+/// The spike and the directional-diffuse part of He's model with a perfect reflector.
+TEST(He, KnownGainOfEnergy) {
+    const Brdf& brdf = requireBrdf("he");
+    const double wavelength = 5e-7;
+    const auto reflected = [&](double sigma, double slope, double cosine) {
+        ParameterValues values{0, 0, 0, sigma * wavelength, 2.0 * sigma * wavelength / slope};
+        values.insert(values.end(), {wavelength, wavelength, wavelength, 0, 1, 1, 1, 1.5, 1.5, 1.5, 0, 0, 0});
+        return albedo(brdf, values, cosine).value + brdf.mirror(cosine, values).r;
+    };
+    EXPECT_NEAR(reflected(0.1, 0.2, 0.3), 1.042, 1e-3);
+    for (double sigma : {0.02, 0.1, 0.5, 2.0}) {
+        EXPECT_LE(reflected(sigma, 0.2, 1.0), 1.0003);
+        for (double cosine : {0.5, 0.2, 0.1})
+            EXPECT_LE(reflected(sigma, 0.2, cosine), 1.043);
+    }
+}
+
+TEST(Lafortune, BrushedMetalGainsEnergy) {
+    const Brdf& brdf = requireBrdf("lafortune");
+    EXPECT_NEAR(albedo(brdf, brdf.findPreset("brushedmetal")->values, 0.1, 2).value, 1.56, 0.01);
+}
+
 ParameterValues phongLobe(double n, double diffuse, double specular, bool energy) {
     return {0, 0, 0, diffuse, diffuse, diffuse, specular, specular, specular, n, energy ? 1.0 : 0.0};
 }

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "albedo.hpp"
+#include "math/quadrature.hpp"
 #include "math/random.hpp"
 #include "math/sphere.hpp"
 #include "shading/brdf.hpp"

@@ -90,9 +90,15 @@ double logTerm(double m, double g, double q) {
 
 /// sum over m of g^m exp(-g) / (m! m) exp(-q / m), outwards from the largest term. Where the terms change
 /// slowly, only every n-th is taken, n a third of the peak's width: for a peak this smooth the sum differs
-/// by exp(-2 pi^2 9).
+/// by exp(-2 pi^2 9). Beyond g = 1e14 it is the mean of h(m) = exp(-q / m) / m over a Poisson distribution so
+/// narrow that h(g) + g h''(g) / 2 is left: the next term is (q / g)^4 / (8 g^2), below 1e-17 where exp(-q /
+/// g) is above the least double.
 double series(double g, double q) {
     if (g <= 0.0) return 0.0;
+    if (g > 1e14) {
+        const double u = q / g;
+        return std::exp(-u) / g * (1.0 + (0.5 * u * u - 2.0 * u + 1.0) / g);
+    }
     double low = 1e-3, high = std::max(10.0, 2.0 * (g + std::sqrt(q)) + 10.0);
     const auto slope = [&](double m) { return std::log(g / m) + q / (m * m) - 1.5 / m; };
     for (int i = 0; i < 60 && high > (1.0 + 1e-9) * low; ++i) {
