@@ -302,5 +302,43 @@ class Runs(CheckTest):
             process.stdout.close()
 
 
+class Models(CheckTest):
+    def models(self, *arguments, **keywords):
+        return json.loads(self.check("models", *arguments, "--json", "-", **keywords).stdout)
+
+    def test_a_model_is_measured(self):
+        report = self.models("lambert", "ggx", "--inputs", 3000)
+        self.assertEqual((report["schema"], [m["name"] for m in report["models"]]), (1, ["lambert", "ggx"]))
+        for model in report["models"]:
+            self.assertEqual((model["rows"], model["values"], model["failing"]), (3000, 9000, 0))
+            self.assertGreater(model["worst_units"], 0.0)
+            self.assertLess(model["worst_units"], 16.0)
+            self.assertLess(model["asymmetry"], 1e-5)
+        self.assertAlmostEqual(report["models"][0]["albedo"][0]["value"], 1.0, places=6)
+
+    def test_time_stops_at_fewer_rows_and_says_so(self):
+        model = self.models("he", "--inputs", 10000000, "--time-limit", 0.1)["models"][0]
+        self.assertTrue(model["stopped_by_time"])
+        self.assertLess(model["rows"], 10000000)
+
+    def test_a_wrong_model_fails(self):
+        shaders = pathlib.Path(__file__).resolve().parents[2] / "shaders/glsl"
+        shutil.copytree(shaders, self.folder / "glsl")
+        lambert = self.folder / "glsl/brdf/lambert.glsl"
+        lambert.write_text(lambert.read_text().replace("INV_PI * d.wi.z", "1.00001 * INV_PI * d.wi.z"))
+        env = {"LOBE_SHADER_DIR": str(self.folder / "glsl")}
+        model = self.models("lambert", "--inputs", 1000, expect=1, env=env)["models"][0]
+        self.assertGreater(model["failing"], 500)
+        self.assertIn("expected", model["message"])
+        self.assertIn("FAILED", self.check("models", "lambert", "--inputs", 1000, expect=1, env=env).stdout)
+        lambert.write_text("nonsense")
+        self.assertIn("lambert.glsl:1", self.check("models", "lambert", expect=5, env=env).stderr)
+
+    def test_mistakes_exit_with_2(self):
+        self.assertIn("did you mean 'lambert'", self.check("models", "lambret", expect=2).stderr)
+        self.assertIn("did you mean '--inputs'", self.check("models", "--input", "3", expect=2).stderr)
+        self.check("models", "--time-limit", "0", expect=2)
+
+
 if __name__ == "__main__":
     unittest.main()

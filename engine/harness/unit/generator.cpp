@@ -195,11 +195,8 @@ void Generator::readRange(DirectiveReader& reader) {
     if (type_.isReal() && std::max(-low_, high_) > double(std::numeric_limits<float>::max()))
         reader.fail("the range must be one of floats");
     if (type_.isReal()) {
-        // The floats nearest. GCC 12 leaves both conversions out where it makes one vector of the pair.
-        const volatile float low = static_cast<float>(low_);
-        const volatile float high = static_cast<float>(high_);
-        low_ = double(low);
-        high_ = double(high);
+        low_ = double(static_cast<float>(low_));
+        high_ = double(static_cast<float>(high_));
     }
     if (!type_.isReal() && (low_ < (type_.base == Base::natural ? 0.0 : -2147483648.0) ||
                             high_ > (type_.base == Base::natural ? 4294967295.0 : 2147483647.0)))
