@@ -21,6 +21,7 @@ using nlohmann::ordered_json;
 
 std::vector<const Brdf*> chosenModels(const std::vector<std::string>& names) {
     std::vector<const Brdf*> models;
+    models.reserve(names.size());
     for (const std::string& name : names)
         models.push_back(&requireBrdf(name));
     if (names.empty())

@@ -88,7 +88,7 @@ std::string DirectiveReader::quoted(const std::string& expectation) {
     const size_t close =
         at_ < text_.size() && text_[at_] == '"' ? text_.find('"', at_ + 1) : std::string::npos;
     if (close == std::string::npos) fail("expected " + expectation + " in double quotes");
-    const std::string result = text_.substr(at_ + 1, close - at_ - 1);
+    std::string result = text_.substr(at_ + 1, close - at_ - 1);
     at_ = close + 1;
     return result;
 }

@@ -35,6 +35,7 @@ gl::Texture uploadWords(const std::vector<uint32_t>& image, size_t height) {
 
 std::vector<std::string> outputNames(int outputs) {
     std::vector<std::string> names;
+    names.reserve(static_cast<size_t>(outputs));
     for (int i = 0; i < outputs; ++i)
         names.push_back("lobe_output" + std::to_string(i));
     return names;

@@ -104,7 +104,7 @@ void storeBrdfRow(const TestCase& test, const BrdfRow& row, uint32_t* words) {
     for (size_t i = 2; i < test.inputs.size(); ++i) {
         const Parameter& parameter = test.model->parameters[i - 2];
         for (int c = 0; c < parameter.components(); ++c) {
-            const auto at = static_cast<size_t>(test.inputs[i].offset + c);
+            const auto at = static_cast<size_t>(test.inputs[i].offset) + static_cast<size_t>(c);
             words[at] = parameter.kind == ParameterKind::table    ? static_cast<uint32_t>(row.table)
                         : parameter.kind == ParameterKind::choice ? static_cast<uint32_t>(row.values[at - 6])
                                                                   : wordOf(row.values[at - 6]);
@@ -208,12 +208,12 @@ BrdfRow brdfRowOf(const TestCase& test, std::span<const uint32_t> words) {
     BrdfRow row{"test", {}, {}, {}, -1};
     for (int c = 0; c < 3; ++c) {
         row.wi[c] = realOf(words[static_cast<size_t>(c)]);
-        row.wo[c] = realOf(words[static_cast<size_t>(3 + c)]);
+        row.wo[c] = realOf(words[static_cast<size_t>(c) + 3]);
     }
     for (size_t i = 2; i < test.inputs.size(); ++i) {
         const Parameter& parameter = test.model->parameters[i - 2];
         for (int c = 0; c < parameter.components(); ++c) {
-            const uint32_t word = words[static_cast<size_t>(test.inputs[i].offset + c)];
+            const uint32_t word = words[static_cast<size_t>(test.inputs[i].offset) + static_cast<size_t>(c)];
             const bool isTable = parameter.kind == ParameterKind::table;
             if (isTable) row.table = static_cast<int>(word);
             row.values.push_back(isTable                                   ? 0.0f
