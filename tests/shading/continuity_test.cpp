@@ -73,7 +73,8 @@ BrdfRow rowAt(const Brdf& brdf, const Scan& scan, double t) {
     const auto set = [&](const std::string& name, double value) {
         const int index = brdf.parameterIndex(name);
         for (int c = 0; c < brdf.parameters.at(static_cast<size_t>(index)).components(); ++c)
-            row.values[static_cast<size_t>(brdf.valueOffset(index) + c)] = static_cast<float>(value);
+            row.values[static_cast<size_t>(brdf.valueOffset(index)) + static_cast<size_t>(c)] =
+                static_cast<float>(value);
     };
     for (const auto& [name, value] : scan.fixed)
         set(name, value);
