@@ -3,7 +3,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <regex>
+#include <string>
 
 #include "harness/comparison.hpp"
 #include "math/random.hpp"
@@ -19,7 +23,17 @@ using harness::BrdfRow;
 using harness::Comparison;
 using harness::describe;
 
-class BrdfTwin : public test::OnContext {};
+class BrdfTwin : public test::OnContext {
+protected:
+    /// The worst error that the model's GLSL file admits in its header, in units.
+    double statedUnits(const Brdf& brdf) const {
+        std::ifstream file(library().root() / "brdf" / (brdf.name + ".glsl"));
+        const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        std::smatch found;
+        const std::regex line("/// error  relative, at most ([0-9.]+) x 2\\^-24");
+        return std::regex_search(text, found, line) ? std::stod(found[1]) : 0.0;
+    }
+};
 
 TEST_P(BrdfTwin, AgreesWithDirectionsInTheLocalFrame) {
     for (const Brdf& brdf : allBrdfs()) {
@@ -30,6 +44,7 @@ TEST_P(BrdfTwin, AgreesWithDirectionsInTheLocalFrame) {
         for (size_t i = 0; i < rows.size() && agrees; ++i)
             agrees = comparison.check(rows[i], harness::directionsOf(rows[i]), results[i].fCos);
         EXPECT_TRUE(agrees) << comparison.message();
+        EXPECT_LE(comparison.worst(), statedUnits(brdf)) << brdf.name << ": " << comparison.report();
         EXPECT_LT(comparison.illConditionedShare(), 0.1) << brdf.name;
         std::printf("%s, local frame: %s\n", brdf.name.c_str(), comparison.report().c_str());
     }
@@ -60,6 +75,7 @@ TEST_P(BrdfTwin, AgreesWithDirectionsInWorldAxes) {
             agrees = comparison.check(rows[i], d, results[i]);
         }
         EXPECT_TRUE(agrees) << comparison.message();
+        EXPECT_LE(comparison.worst(), statedUnits(brdf)) << brdf.name << ": " << comparison.report();
         EXPECT_LT(comparison.illConditionedShare(), 0.2) << brdf.name;
         std::printf("%s, world axes: %s\n", brdf.name.c_str(), comparison.report().c_str());
     }

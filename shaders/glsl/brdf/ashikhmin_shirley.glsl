@@ -14,7 +14,7 @@
 /// source Ashikhmin and Shirley, JGT 5(2), 2000
 /// stable (N.H)^e = exp(-(nu x^2 + nv y^2) / 2 log1p(t) / t), (x, y) the half vector's slope, t its square: no 0/0 at the peak;
 ///        1 - (1 - c / 2)^5 = c / 2 (1 + u + u^2 + u^3 + u^4), u = 1 - c / 2
-/// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
+/// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/ashikhmin_shirley.cpp
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"

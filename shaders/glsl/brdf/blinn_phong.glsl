@@ -13,7 +13,7 @@
 /// domain 0 unless d.wi.z > 0 and d.wo.z > 0; L = -V (h = 0) lies in the horizon and gives 0
 /// source Blinn, SIGGRAPH 1977
 /// stable (N.H)^n = (1 + tan^2)^(-n/2) through log1p, tan = |h.xy| / h.z: near 1, pow(N.H, n) loses n 2^-25
-/// error  relative, at most 1.3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
+/// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
 ///        Where both cosines > 0.01 and f > 1e-6: < 5.3e-6 for n < 900, 2.3e-4 for n < 9e4, 2.1e-3
 /// twin   engine/shading/brdf/blinn_phong.cpp
 #include "common/constants.glsl"

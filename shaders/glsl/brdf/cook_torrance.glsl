@@ -14,7 +14,7 @@
 /// source Cook and Torrance, SIGGRAPH 1981 and ACM TOG 1(1), 1982
 /// stable G / (4 N.V) = min(1 / (4 N.V), N.L (N.L + N.V) / (max(N.L, N.V) |h|^2)) with h = wi + wo: no factor can be 0/0;
 ///        tan(theta_h) = |h.xy| / h.z
-/// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
+/// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/cook_torrance.cpp
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"

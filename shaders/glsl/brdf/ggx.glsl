@@ -15,7 +15,7 @@
 /// domain 0 unless d.wi.z > 0 and d.wo.z > 0
 /// source Trowbridge and Reitz, JOSA 65(5), 1975; Walter et al., EGSR 2007; Heitz, JCGT 3(2), 2014
 /// stable sums of squares of the unnormalised half vector; masking by lengths of stretched vectors, without tangents
-/// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
+/// error  relative, at most 4 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/ggx.cpp
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"

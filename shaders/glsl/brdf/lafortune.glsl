@@ -10,7 +10,7 @@
 ///        refused when they are read
 /// source Lafortune et al., SIGGRAPH 1997
 /// stable the power as exp(n ln s), whose error is n times that of the sum s; nothing is raised to a power at s <= 0
-/// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
+/// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/lafortune.cpp
 #include "common/constants.glsl"
 #include "common/dirs.glsl"

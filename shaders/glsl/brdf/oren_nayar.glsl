@@ -14,7 +14,7 @@
 /// source Oren and Nayar, SIGGRAPH 1994
 /// stable cos(phi) sin(a) tan(b) = dot(wi.xy, wo.xy) / max(wi.z, wo.z); tan((a + b) / 2) = (sin a + sin b) / (cos a + cos b);
 ///        1 - |cos(phi)| = sin^2(phi) / (1 + |cos(phi)|); angles from sine and cosine, never acos
-/// error  relative, at most 1.2 x 2^-24 (4 t + c), t the ratio of the terms' sizes to their sum, c the condition number (docs/how_to/add_a_brdf.md)
+/// error  relative, at most 2 x 2^-24 (4 t + c), t the ratio of the terms' sizes to their sum, c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/oren_nayar.cpp
 #include "common/constants.glsl"
 #include "common/dirs.glsl"

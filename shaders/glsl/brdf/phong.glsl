@@ -13,7 +13,7 @@
 /// source Phong, CACM 18(6), 1975; energy: Lafortune and Willems, report CW 197, 1994
 /// stable 1 - R.V = |R - V|^2 / 2 from components that do not cancel, then log1p: near 1, pow(R.V, n) loses
 ///        n 2^-25. Beyond R.V < 0.7 the dot product itself is the accurate one
-/// error  relative, at most 1.3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
+/// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
 ///        Where both cosines > 0.01 and f > 1e-6: < 7.1e-6
 /// twin   engine/shading/brdf/phong.cpp
 #include "common/constants.glsl"
