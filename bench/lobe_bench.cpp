@@ -1,14 +1,16 @@
 // lobe-bench: each pass of each scene against its floor, both measured in this process, as ratios.
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
+//   lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "floor.hpp"
+#include "models.hpp"
 #include "passes/renderer.hpp"
 #include "plan/summary.hpp"
 #include "scene/load.hpp"
@@ -97,9 +99,48 @@ nlohmann::json toJson(const Result& result) {
             {"passes", passes}};
 }
 
+void writeJson(const std::string& file, const nlohmann::json& report) {
+    if (!file.empty()) writeAtomically(file, report.dump(2) + "\n");
+}
+
+void print(const ModelTime& time) {
+    std::printf("%-28s %8.1f %10.1f %8.1f", time.name.c_str(), time.model, time.textbook, time.floor);
+    if (time.ratio > 0.0)
+        std::printf(" %7.2f", time.ratio);
+    else
+        std::printf(" %7s", "-");
+    std::printf(" %9.2f\n", 100.0 * time.astray);
+    std::fflush(stdout);
+}
+
+void runModels(const std::string& backend, const std::string& json, int rounds) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
+    std::printf("%s, %s, ns an evaluation on %s, median of %d rounds, floor taken off\n",
+                context->info().renderer.c_str(), context->info().version.c_str(),
+                context->info().software ? "one core" : "the GPU", rounds);
+    std::printf("%-28s %8s %10s %8s %7s %9s\n", "model", "model", "textbook", "floor", "ratio", "astray %");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    for (const ModelTime& time :
+         modelTimes(context->info(), rounds, [](const ModelTime& done) { print(done); })) {
+        report["results"].push_back({{"model", time.name},
+                                     {"ns", time.model},
+                                     {"textbook_ns", time.textbook},
+                                     {"floor_ns", time.floor},
+                                     {"textbook_astray", time.astray}});
+        if (time.ratio > 0.0) report["results"].back()["ratio"] = time.ratio;
+    }
+    writeJson(json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
+    int rounds = 7;
+    CLI::App* models = app.add_subcommand("models", "every model's GLSL against its textbook form");
+    models->add_option("--json", json, "write the results here as well");
+    models->add_option("--backend", backend, "auto, egl or osmesa");
+    models->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -108,6 +149,10 @@ int run(int argc, char** argv) {
     app.add_option("--frames", frames, "frames measured a scene")->check(CLI::Range(1, 1000));
     app.add_option("--backend", backend, "auto, egl or osmesa");
     CLI11_PARSE(app, argc, argv);
+    if (models->parsed()) {
+        runModels(backend, json, rounds);
+        return 0;
+    }
 
     const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
     std::printf("%s, %s, %dx%d, passes: least of %d frames, frame: median, one sample a pixel\n",
@@ -131,15 +176,13 @@ int run(int argc, char** argv) {
         if (count == 1) one = results.back().frame;
         std::printf("    frame against one light's: %.2f x\n", results.back().frame / one);
     }
-    if (!json.empty()) {
-        nlohmann::json report = {{"schema", 1},
-                                 {"renderer", context->info().renderer},
-                                 {"resolution", resolution},
-                                 {"results", nlohmann::json::array()}};
-        for (const Result& result : results)
-            report["results"].push_back(toJson(result));
-        std::ofstream(json) << report.dump(2) << '\n';
-    }
+    nlohmann::json report = {{"schema", 1},
+                             {"renderer", context->info().renderer},
+                             {"resolution", resolution},
+                             {"results", nlohmann::json::array()}};
+    for (const Result& result : results)
+        report["results"].push_back(toJson(result));
+    writeJson(json, report);
     return 0;
 }
 

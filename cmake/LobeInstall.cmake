@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lobe)
 get_property(rooms GLOBAL PROPERTY LOBE_ROOMS)
 
-install(TARGETS lobe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS lobe-image-worker lobe-scene-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lobe)
+install(TARGETS lobe lobe-check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS lobe-image-worker lobe-scene-worker lobe-check-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lobe)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/shaders/glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe
         FILES_MATCHING PATTERN "*.glsl" PATTERN "*.vert" PATTERN "*.frag")
 
@@ -15,9 +15,9 @@ install(TARGETS ${rooms} lobe_compile EXPORT lobe ARCHIVE DESTINATION ${CMAKE_IN
 install(EXPORT lobe NAMESPACE lobe:: FILE lobeTargets.cmake DESTINATION ${package_dir})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/lobeConfig.cmake.in ${CMAKE_BINARY_DIR}/lobeConfig.cmake
-                              INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_LIBEXECDIR)
+                              INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_BINDIR CMAKE_INSTALL_DATADIR CMAKE_INSTALL_LIBEXECDIR)
 # Before 1.0 a new minor version may change any interface.
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/lobeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/lobeConfig.cmake ${CMAKE_BINARY_DIR}/lobeConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/LobeOpenImageIO.cmake ${CMAKE_CURRENT_LIST_DIR}/lobe_place.cpp.in
+              ${CMAKE_CURRENT_LIST_DIR}/LobeOpenImageIO.cmake ${CMAKE_CURRENT_LIST_DIR}/LobeShaderTests.cmake ${CMAKE_CURRENT_LIST_DIR}/lobe_place.cpp.in
         DESTINATION ${package_dir})

@@ -1,9 +1,5 @@
 #include "arguments.hpp"
 
-#include <algorithm>
-#include <iostream>
-
-#include "base/closest_name.hpp"
 #include "base/error.hpp"
 
 namespace lobe::app {
@@ -37,10 +33,7 @@ std::vector<std::string> withSizesJoined(const std::vector<std::string>& argumen
 }  // namespace
 
 Arguments::Arguments(const std::string& command, const std::string& description)
-    : app_(description, "lobe " + command) {
-    app_.allow_extras();  // unknown options are refused below, with the nearest name
-    app_.get_formatter()->column_width(42);
-}
+    : line_("lobe " + command, description) {}
 
 void Arguments::addSettings() {
     for (const Setting& setting : settingTable()) {
@@ -48,7 +41,8 @@ void Arguments::addSettings() {
         if (setting.key == "output") names += ",-o";
         if (setting.key == "resolution") names += ",-r";
         const std::string help = helpText(setting);
-        app_.add_option(names, help)
+        app()
+            .add_option(names, help)
             ->type_name(setting.valueName())
             ->group(setting.group)
             ->expected(1)
@@ -57,54 +51,33 @@ void Arguments::addSettings() {
     }
     const std::string setHelp = "set any setting by its key; may be repeated";
     const std::string resetHelp = "reset a setting to its default; may be repeated";
-    app_.add_option("-D", setHelp)
+    app()
+        .add_option("-D", setHelp)
         ->type_name("KEY=VALUE")
         ->group("Settings")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
-    app_.add_option("-R", resetHelp)
+    app()
+        .add_option("-R", resetHelp)
         ->type_name("KEY")
         ->group("Settings")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
-    app_.add_option("--config", configFile_, "configuration file, after the system's and the user's")
+    app()
+        .add_option("--config", configFile_, "configuration file, after the system's and the user's")
         ->group("Settings");
-    app_.add_option("--settings", settingsFile_, "settings file, after all configuration")->group("Settings");
-    app_.add_flag("--no-config", noConfig_, "read no configuration of the system or the user")
+    app()
+        .add_option("--settings", settingsFile_, "settings file, after all configuration")
         ->group("Settings");
-}
-
-std::vector<std::string> Arguments::optionNames() const {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app_.get_options())
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
-    return names;
+    app()
+        .add_flag("--no-config", noConfig_, "read no configuration of the system or the user")
+        ->group("Settings");
 }
 
 bool Arguments::parse(const std::vector<std::string>& arguments) {
-    std::vector<std::string> reversed = withSizesJoined(arguments);
-    std::reverse(reversed.begin(), reversed.end());  // as CLI11 takes them
-    try {
-        app_.parse(reversed);
-    } catch (const CLI::CallForHelp&) {
-        std::cout << app_.help();
-        return false;
-    } catch (const CLI::ConversionError& error) {  // of flags: other options are taken as text
-        throw UsageError(std::string(error.what()) + "; expected true or false");
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(std::string(error.what()) + "; " + app_.get_name() + " --help shows how");
-    }
-    for (const std::string& extra : app_.remaining()) {
-        if (extra == "--") continue;  // what follows are scenes, whatever they start with
-        const std::string name = extra.substr(0, extra.find('='));
-        if (extra.starts_with("-") && extra != "-")
-            throw UsageError("unknown option " + name + didYouMean(name, optionNames()));
-        throw UsageError("unexpected argument '" + extra + "'");
-    }
-    return true;
+    return line_.parse(withSizesJoined(arguments));
 }
 
 std::vector<Assignment> Arguments::assignments() const {
@@ -112,7 +85,7 @@ std::vector<Assignment> Arguments::assignments() const {
     // order.
     std::map<const CLI::Option*, size_t> used;
     std::vector<Assignment> result;
-    for (const CLI::Option* option : app_.parse_order()) {
+    for (const CLI::Option* option : line_.app().parse_order()) {
         const size_t index = used[option]++;
         const std::vector<std::string> values = option->results();
         if (option->get_group() == "Settings" || option->check_name("-D")) {
@@ -125,19 +98,27 @@ std::vector<Assignment> Arguments::assignments() const {
                 {Assignment::Kind::set, values[index].substr(0, equals), values[index].substr(equals + 1)});
             continue;
         }
-        for (const Setting& setting : settingTable())
-            if (option->check_lname(setting.flag().substr(2)) && index < values.size())
+        for (const Setting& setting : settingTable()) {
+            if (!option->check_lname(setting.flag().substr(2)) || index >= values.size()) continue;
+            const bool several = setting.type == SettingType::files || setting.type == SettingType::pairs;
+            if (!several)
                 result.push_back({Assignment::Kind::set, setting.key, values[index]});
+            else if (index == 0)  // the first time stands for all
+                result.push_back({Assignment::Kind::set, setting.key, values});
+        }
     }
     return result;
 }
 
 SettingSources Arguments::sources() const {
     SettingSources sources;
-    if (!noConfig_) sources.configs = standardConfigs();
-    if (!configFile_.empty()) sources.configs.emplace_back(readJsonFile(configFile_), configFile_);
-    if (!settingsFile_.empty()) sources.configs.emplace_back(readJsonFile(settingsFile_), settingsFile_);
     sources.assignments = assignments();
+    for (const Assignment& assignment : sources.assignments)  // first: configurations may name their models
+        if (assignment.kind == Assignment::Kind::set && assignment.key == "brdf_file")
+            Settings().set(assignment.key, assignment.value, "command line");
+    if (!noConfig_) sources.configs = standardConfigs();
+    if (!configFile_.empty()) sources.configs.push_back(configFrom(configFile_));
+    if (!settingsFile_.empty()) sources.configs.push_back(configFrom(settingsFile_));
     return sources;
 }
 

@@ -1,10 +1,10 @@
-/// Command lines through CLI11, with settings as options and the nearest name for unknown ones.
+/// Command lines with settings as options.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "shots.hpp"
 
 namespace lobe::app {
@@ -13,7 +13,7 @@ namespace lobe::app {
 class Arguments {
 public:
     Arguments(const std::string& command, const std::string& description);
-    CLI::App& app() { return app_; }
+    CLI::App& app() { return line_.app(); }
 
     /// --key for every setting, -D, -R, -r W H, -o, --config, --settings, --no-config.
     void addSettings();
@@ -25,10 +25,9 @@ public:
     SettingSources sources() const;
 
 private:
-    std::vector<std::string> optionNames() const;
     std::vector<Assignment> assignments() const;
 
-    CLI::App app_;
+    CommandLine line_;
     std::string configFile_, settingsFile_;
     bool noConfig_ = false;
 };

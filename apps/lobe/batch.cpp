@@ -5,6 +5,7 @@
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
+#include "model_files.hpp"
 
 namespace lobe::app {
 namespace {
@@ -26,6 +27,10 @@ public:
                 "shots: expected a list of at least one");
         presets_ = content_.value("presets", json::object());
         require(presets_.is_object(), "presets: expected an object");
+        for (auto& [name, preset] : presets_.items())
+            loadFiles(preset);
+        for (json& shot : content_["shots"])
+            loadFiles(shot);
         for (const auto& [name, preset] : presets_.items())
             layers_[name] = layersOf(name);
     }
@@ -40,6 +45,13 @@ public:
 private:
     void require(bool good, const std::string& what) const {
         if (!good) throw UsageError(file_.string() + ": " + what);
+    }
+
+    /// Before any setting is read, so that each may name the models; files are relative to the batch file.
+    void loadFiles(json& settings) const {
+        settings = withFilesIn(file_.parent_path(), std::move(settings));
+        if (settings.is_object() && settings.contains("brdf_file"))
+            Settings().set("brdf_file", settings["brdf_file"], file_.string());
     }
 
     std::string presetNames() const {

@@ -11,6 +11,7 @@ int planCommand(const std::vector<std::string>& arguments);
 /// `lobe plot KIND`: docs/plots.md.
 int plotCommand(const std::vector<std::string>& arguments);
 int infoCommand(const std::vector<std::string>& arguments);
+int modelsCommand(const std::vector<std::string>& arguments);
 /// `lobe help [--markdown]`: all settings, as docs/cli.md holds them.
 int helpCommand(const std::vector<std::string>& arguments);
 

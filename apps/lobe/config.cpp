@@ -10,6 +10,7 @@
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
+#include "model_files.hpp"
 
 namespace lobe::app {
 namespace {
@@ -119,17 +120,25 @@ void Config::apply(const fs::path& scene, Settings& settings) const {
     }
 }
 
+Config configFrom(const fs::path& file) {
+    json content = withFilesIn(file.parent_path(), readJsonFile(file));
+    if (content.is_array())
+        for (json& block : content)
+            if (block.is_object() && block.contains("settings"))
+                block["settings"] = withFilesIn(file.parent_path(), block["settings"]);
+    return {std::move(content), file.string()};
+}
+
 std::vector<Config> configsIn(const fs::path& folder) {
     std::vector<Config> configs;
     std::error_code ignored;
-    if (fs::exists(folder / "config.json", ignored))
-        configs.emplace_back(readJsonFile(folder / "config.json"), (folder / "config.json").string());
+    if (fs::exists(folder / "config.json", ignored)) configs.push_back(configFrom(folder / "config.json"));
     std::vector<fs::path> parts;
     for (const auto& entry : fs::directory_iterator(folder / "config.d", ignored))
         if (entry.path().extension() == ".json") parts.push_back(entry.path());
     std::sort(parts.begin(), parts.end());
     for (const fs::path& part : parts)
-        configs.emplace_back(readJsonFile(part), part.string());
+        configs.push_back(configFrom(part));
     return configs;
 }
 

@@ -26,6 +26,10 @@ private:
     std::string origin_;
 };
 
+/// The configuration in a file; names of files in it are relative to its folder. Throws InputError,
+/// UsageError.
+Config configFrom(const std::filesystem::path& file);
+
 /// config.json and config.d/*.json of a folder, as far as they exist, in the order of precedence, weakest
 /// first.
 std::vector<Config> configsIn(const std::filesystem::path& folder);

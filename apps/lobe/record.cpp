@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "lobe_paths.hpp"
+#include "model_files.hpp"
 #include "shot_scene.hpp"
 
 namespace lobe::app {
@@ -32,17 +33,23 @@ json recordOf(const Shot& shot, const Scene& scene, const Camera& camera, const 
     // does.
     for (const char* key : {"output", "backend", "device"})
         settings.erase(key);
-    return {{"schema", 1},
-            {"lobe", paths::kVersion},
-            {"scene", std::filesystem::absolute(shot.scene).lexically_normal().string()},
-            {"scene_hash", scene.contentHash},
-            {"camera", toJson(camera)},
-            {"frame", shot.frame},
-            {"settings", settings},
-            {"knobs", knobsOf(qualityOf(*shot.settings))},
-            {"backend", context.backend},
-            {"renderer", context.renderer},
-            {"driver", context.version}};
+    if (settings.contains("brdf_file"))
+        for (json& file : settings["brdf_file"])
+            file = std::filesystem::absolute(file.get<std::string>()).lexically_normal().string();
+    json record = {{"schema", 1},
+                   {"lobe", paths::kVersion},
+                   {"scene", std::filesystem::absolute(shot.scene).lexically_normal().string()},
+                   {"scene_hash", scene.contentHash},
+                   {"camera", toJson(camera)},
+                   {"frame", shot.frame},
+                   {"settings", settings},
+                   {"knobs", knobsOf(qualityOf(*shot.settings))},
+                   {"backend", context.backend},
+                   {"renderer", context.renderer},
+                   {"driver", context.version}};
+    if (json models = modelHashesOf(*shot.settings); !models.empty())
+        record["brdf_hashes"] = std::move(models);
+    return record;
 }
 
 std::map<std::string, std::string> metadataOf(const json& record) {
@@ -67,7 +74,10 @@ json recordIn(const std::map<std::string, std::string>& metadata, const std::str
 
 Shot shotOf(const json& record, const std::string& file, const SettingSources& sources) {
     // The picture's settings stand where a batch's would: configuration files do not change them.
-    const std::vector<SettingLayer> own = {{record["settings"], file}};
+    json recorded = record["settings"];
+    for (const Assignment& assignment : sources.assignments)
+        if (assignment.key == "brdf_file") recorded.erase("brdf_file");  // the files may have moved
+    const std::vector<SettingLayer> own = {{recorded, file}};
     const std::string scene = record["scene"].get<std::string>();
     Settings settings;
     try {
@@ -85,17 +95,20 @@ Shot shotOf(const json& record, const std::string& file, const SettingSources& s
 }
 
 std::vector<std::string> differences(const json& then, const json& now) {
-    constexpr std::pair<const char*, const char*> kFields[] = {{"scene_hash", "content of the scene"},
-                                                               {"lobe", "version of lobe"},
-                                                               {"backend", "backend"},
-                                                               {"renderer", "renderer"},
-                                                               {"driver", "driver"}};
+    constexpr std::pair<const char*, const char*> kFields[] = {
+        {"scene_hash", "content of the scene"},
+        {"brdf_hashes", "content of the files of models"},
+        {"lobe", "version of lobe"},
+        {"backend", "backend"},
+        {"renderer", "renderer"},
+        {"driver", "driver"}};
     std::vector<std::string> lines;
     for (const auto& [key, name] : kFields) {
         const json before = then.value(key, json("unknown"));
-        if (before != now[key])
-            lines.push_back(std::string(name) + " is not that of the picture to reproduce: " +
-                            now[key].dump() + ", was " + before.dump());
+        const json after = now.value(key, json("unknown"));
+        if (before != after)
+            lines.push_back(std::string(name) + " is not that of the picture to reproduce: " + after.dump() +
+                            ", was " + before.dump());
     }
     return lines;
 }

@@ -32,7 +32,7 @@ struct RenderArguments {
 };
 
 void addOptions(CLI::App& app, RenderArguments& r) {
-    app.add_option("scenes", r.inputs, "glTF scenes (.gltf, .glb), or folders of them")
+    app.add_option("scenes", r.inputs, "glTF scenes (.gltf, .glb), or folders of them; - is standard input")
         ->type_name("SCENE...");
     app.add_option("--batch", r.batch, "many shots of many scenes, from a JSON file (docs/batch.md)")
         ->type_name("FILE");

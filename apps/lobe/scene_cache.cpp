@@ -66,7 +66,7 @@ std::shared_ptr<const Scene> SceneCache::loaded(const Shot& shot, const json& ke
 std::shared_ptr<const Scene> SceneCache::get(const Shot& shot) {
     const LoadOptions options = loadOptionsOf(*shot.settings);
     const json fileKey = {std::filesystem::absolute(shot.scene).string(), options.time,
-                          static_cast<int>(options.normals)};
+                          static_cast<int>(options.normals), shot.settings->get("brdf_file")};
     std::shared_ptr<const Scene> base = loaded(shot, fileKey);
     const json changes = changesOf(*base, *shot.settings);
     if (changes.empty()) return base;

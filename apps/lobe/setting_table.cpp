@@ -42,10 +42,14 @@ std::string Setting::valueName() const {
             return "W,H";
         case SettingType::list:
             return "NAME,...";
+        case SettingType::files:
+            return "FILE";
+        case SettingType::pairs:
+            return "NAME=VALUE";
         case SettingType::choice:
             break;
     }
-    if (choices == brdfNames()) return "MODEL";  // as many as there are, and more with each version
+    if (key == "brdf") return "MODEL";  // as many as there are, and more with each version
     std::string names;
     for (const std::string& choice : choices)
         names += (names.empty() ? "" : "|") + choice;
@@ -148,8 +152,28 @@ const std::vector<Setting>& settingTable() {
          "missing normals: flat as glTF says, or averaged (smooth); flat: always flat",
          "Scene",
          {"file", "smooth", "flat"}},
-        {"brdf", choice, nullptr, "shading model for all materials, one of those in docs/models; default each material's own", "Scene",
+        {"brdf", choice, nullptr,
+         "shading model for all materials, one of those in docs/models; default each material's own", "Scene",
          brdfNames()},
+        {"brdf_file", files, nullptr,
+         "GLSL file of a shading model of your own, for all materials unless some name it; may be repeated "
+         "(docs/how_to/add_a_brdf.md)",
+         "Scene"},
+        {"brdf_set", pairs, nullptr,
+         "value of a parameter in all materials whose model has it, as m=0.2, diffuse=0.8,0.2,0.1 or "
+         "metal=gold; "
+         "may be repeated",
+         "Scene"},
+
+        {"bands",
+         integer,
+         3,
+         "bands of wavelength in which metals that are named reflect; 3 is red, green and blue "
+         "(docs/bands.md)",
+         "Scene",
+         {},
+         3,
+         64},
 
         {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",
          "Quality", qualityPresetNames()},

@@ -6,7 +6,9 @@
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
+#include "model_files.hpp"
 #include "settings.hpp"
+#include "shading/brdf.hpp"
 
 namespace lobe::app {
 namespace {
@@ -104,11 +106,75 @@ std::string listText(const std::vector<std::string>& names) {
 
 void requireChoice(const Setting& setting, const std::string& value, const json& given,
                    const std::string& where) {
-    if (std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end()) return;
-    refuse(setting, given, where, "one of " + listText(setting.choices) + didYouMean(value, setting.choices));
+    // Models can be loaded while settings are read.
+    const std::vector<std::string> choices = setting.key == "brdf" ? brdfNames() : setting.choices;
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+    refuse(setting, given, where, "one of " + listText(choices) + didYouMean(value, choices));
+}
+
+/// Names of files, whose models are registered at once, so that other settings can name them.
+json parseFiles(const Setting& setting, const json& given, const std::string& where) {
+    json files = given.is_array() ? given : json::array({given});
+    if (files.empty()) refuse(setting, given, where, "a file or a list of files");
+    for (const json& file : files) {
+        if (!file.is_string() || file.get_ref<const std::string&>().empty())
+            refuse(setting, given, where, "a file or a list of files");
+        loadModelFile(file.get<std::string>());
+    }
+    return files;
+}
+
+/// NAME=VALUE, a list of them, or an object, as an object of texts: "0.2", "0.8,0.2,0.1", "energy".
+json parsePairs(const Setting& setting, const json& given, const std::string& where) {
+    const std::string expected = "NAME=VALUE, as m=0.2, diffuse=0.8,0.2,0.1 or normalization=energy";
+    json pairs = json::object();
+    const auto textOf = [&](const json& value) {
+        if (value.is_string()) return value.get<std::string>();
+        std::string text;
+        for (const json& part : value.is_array() ? value : json::array({value})) {
+            if (!part.is_number()) refuse(setting, given, where, expected);
+            text += (text.empty() ? "" : ",") + part.dump();
+        }
+        return text;
+    };
+    if (given.is_object()) {
+        for (const auto& [name, value] : given.items())
+            pairs[name] = textOf(value);
+    } else {
+        for (const json& pair : given.is_array() ? given : json::array({given})) {
+            const std::string text = pair.is_string() ? pair.get<std::string>() : "";
+            const size_t equals = text.find('=');
+            if (equals == std::string::npos) refuse(setting, given, where, expected);
+            pairs[text.substr(0, equals)] = text.substr(equals + 1);
+        }
+    }
+    for (const auto& [name, value] : pairs.items())
+        if (name.empty() || value.get_ref<const std::string&>().empty())
+            refuse(setting, given, where, expected);
+    if (pairs.empty()) refuse(setting, given, where, expected);
+    return pairs;
 }
 
 }  // namespace
+
+std::vector<ParameterOverride> parametersOf(const Settings& settings) {
+    std::vector<ParameterOverride> changes;
+    const json& pairs = settings.get("brdf_set");
+    if (pairs.is_null()) return changes;
+    for (const auto& [name, value] : pairs.items()) {
+        ParameterOverride change{name, value.get<std::string>(), {}};
+        for (const std::string& part : split(change.text, ",")) {
+            const auto parsed = number(part);
+            if (!parsed) {
+                change.numbers.clear();
+                break;
+            }
+            change.numbers.push_back(*parsed);
+        }
+        changes.push_back(std::move(change));
+    }
+    return changes;
+}
 
 json parseSetting(const Setting& setting, const json& given, const std::string& where) {
     if (given.is_null()) return setting.defaultValue;
@@ -132,6 +198,10 @@ json parseSetting(const Setting& setting, const json& given, const std::string& 
             return parseColour(setting, given, where);
         case SettingType::resolution:
             return parseResolution(setting, given, where);
+        case SettingType::files:
+            return parseFiles(setting, given, where);
+        case SettingType::pairs:
+            return parsePairs(setting, given, where);
         case SettingType::list:
             break;
     }

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "image/tone.hpp"
+#include "model_files.hpp"
 
 namespace lobe::app {
 
@@ -54,8 +55,15 @@ void Settings::setAll(const json& object, const std::string& origin) {
     if (!object.is_object())
         throw UsageError(origin + ": " + std::string(object.type_name()) +
                          "; expected an object of settings");
+    const auto isFile = [](const std::string& key) {
+        return requireSetting(key.substr(key.starts_with("!") ? 1 : 0), "").key == "brdf_file";
+    };
+    for (const auto& [key, value] : object.items()) {
+        requireSetting(key.substr(key.starts_with("!") ? 1 : 0), origin);
+        if (isFile(key)) set(key, value, origin);  // first: others name its model
+    }
     for (const auto& [key, value] : object.items())
-        set(key, value, origin);
+        if (!isFile(key)) set(key, value, origin);
 }
 
 void Settings::reset(const std::string& key, const std::string& origin) {
@@ -137,6 +145,7 @@ LoadOptions loadOptionsOf(const Settings& settings) {
     LoadOptions options;
     options.time = settings.get("time").get<double>();
     options.normals = normalsOf(settings);
+    options.brdfs = modelSourcesOf(settings);
     return options;
 }
 

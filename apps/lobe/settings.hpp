@@ -12,11 +12,12 @@
 #include "image/tone.hpp"
 #include "plan/aov.hpp"
 #include "plan/quality.hpp"
+#include "plan/summary.hpp"
 #include "scene/load.hpp"
 
 namespace lobe::app {
 
-enum class SettingType { text, integer, real, choice, vector, colour, resolution, list };
+enum class SettingType { text, integer, real, choice, vector, colour, resolution, list, files, pairs };
 
 struct Setting {
     std::string key;  ///< "tone_mapping"; its flag is "--tone-mapping"
@@ -76,6 +77,7 @@ private:
 Quality qualityOf(const Settings& settings);     ///< the preset with the knobs that are set
 nlohmann::json knobsOf(const Quality& quality);  ///< as the settings anti_aliasing, gbuffer_bits, ...
 LoadOptions loadOptionsOf(const Settings& settings);
+std::vector<ParameterOverride> parametersOf(const Settings& settings);  ///< of brdf_set
 AovSet aovsOf(const Settings& settings);
 ToneMapping toneMappingOf(const Settings& settings);
 NormalsMode normalsOf(const Settings& settings);

@@ -1,8 +1,10 @@
 #include "shot_scene.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/error.hpp"
+#include "model_files.hpp"
 #include "plan/summary.hpp"
 
 namespace lobe::app {
@@ -10,6 +12,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kRgb = 3;  ///< bands that every scene has
 constexpr double kRadians = std::numbers::pi / 180.0;
 
 double aspectOf(const Settings& settings) {
@@ -56,6 +59,26 @@ Pose basePose(const Scene& scene, const Settings& settings) {
     return {framingCamera(bounds, aspectOf(settings), framing), bounds.center(), true};
 }
 
+/// The model for all materials, empty where each keeps its own: `brdf`, else that of the one `brdf_file`,
+/// unless the scene itself says where that is to be used.
+std::string modelForAll(const Scene& scene, const Settings& settings) {
+    const std::vector<std::string> loaded = modelNamesOf(settings);
+    const json& brdf = settings.get("brdf");
+    if (brdf.is_null()) {
+        const bool named =
+            loaded.size() == 1 && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                              [&](const Material& m) { return m.brdf == loaded[0]; });
+        return loaded.size() == 1 && !named ? loaded[0] : "";
+    }
+    std::string name = brdf.get<std::string>();
+    const Brdf& model = requireBrdf(name);
+    // The picture's record has to name all that it is made of.
+    if (!model.file.empty() && std::find(loaded.begin(), loaded.end(), name) == loaded.end())
+        throw UsageError("brdf '" + name + "': its file " + model.file +
+                         " is given for other pictures only; expected it " + "in this one's brdf_file");
+    return name;
+}
+
 bool needsLight(const Scene& scene) {
     return scene.lights.empty() && !scene.ambientRadiance;
 }
@@ -95,7 +118,9 @@ Camera cameraOf(const Scene& scene, const Settings& settings, int frame) {
 
 json changesOf(const Scene& scene, const Settings& settings) {
     json changes = json::object();
-    if (const json& brdf = settings.get("brdf"); !brdf.is_null()) changes["brdf"] = brdf;
+    if (const std::string model = modelForAll(scene, settings); !model.empty()) changes["brdf"] = model;
+    if (const json& values = settings.get("brdf_set"); !values.is_null()) changes["brdf_set"] = values;
+    if (const json& bands = settings.get("bands"); bands != kRgb) changes["bands"] = bands;
     if (needsLight(scene)) {
         const glm::dmat4 pose =
             keyLightCamera(scene, settings).worldFromCamera;  // the light follows its axes
@@ -109,8 +134,12 @@ json changesOf(const Scene& scene, const Settings& settings) {
 std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& base,
                                            const Settings& settings) {
     std::shared_ptr<Scene> changed;
-    if (const json& brdf = settings.get("brdf"); !brdf.is_null())
-        changed = std::make_shared<Scene>(withBrdf(*base, requireBrdf(brdf.get<std::string>())));
+    if (const std::string model = modelForAll(*base, settings); !model.empty())
+        changed = std::make_shared<Scene>(withBrdf(*base, requireBrdf(model)));
+    if (const std::vector<ParameterOverride> values = parametersOf(settings); !values.empty())
+        changed = std::make_shared<Scene>(withParameters(changed ? *changed : *base, values));
+    if (const int bands = settings.get("bands").get<int>(); bands != kRgb)
+        changed = std::make_shared<Scene>(withBands(changed ? *changed : *base, bands));
     if (needsLight(*base)) {
         if (!changed) changed = std::make_shared<Scene>(*base);
         addDefaultLight(*changed, keyLightCamera(*base, settings));

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "output_name.hpp"
+#include "standard_input.hpp"
 
 namespace lobe::app {
 namespace {
@@ -54,12 +55,13 @@ Settings SettingSources::resolve(const fs::path& scene, const std::vector<Settin
 std::vector<fs::path> sceneFiles(const std::vector<std::string>& inputs) {
     std::vector<fs::path> files;
     for (const std::string& input : inputs) {
-        if (input == "-")
-            throw UsageError(
-                "scene '-': a scene is read with the files beside it; expected a file or folder");
+        if (input == "-") {
+            files.push_back(standardInputScene());
+            continue;
+        }
         if (input.empty()) throw UsageError("scene ''; expected a file or folder");
+        // A missing file is a shot that will fail by itself: the others are rendered all the same.
         std::error_code failed;
-        if (!fs::exists(input, failed)) throw InputError(input + ": no such file");
         if (!fs::is_directory(input, failed)) {
             files.emplace_back(input);
             continue;

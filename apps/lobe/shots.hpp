@@ -25,7 +25,7 @@ struct Shot {
 struct Assignment {
     enum class Kind { set, reset } kind = Kind::set;
     std::string key;
-    std::string value;
+    nlohmann::json value;  ///< text; of settings that take several, all that were given
 };
 
 /// Settings that one place of a batch file gives, and that place's name.
@@ -40,8 +40,8 @@ struct SettingSources {
                      const std::vector<SettingLayer>& batchLayers = {}) const;
 };
 
-/// Scene files below folders, in order of name; files as given. Throws InputError for what does not exist,
-/// and for a folder without scenes.
+/// Scene files below folders, in order of name; files as given, whether they exist or not; "-" is standard
+/// input. Throws InputError for a folder without scenes.
 std::vector<std::filesystem::path> sceneFiles(const std::vector<std::string>& inputs);
 
 /// Appends all frames that the settings ask for.

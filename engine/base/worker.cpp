@@ -85,10 +85,13 @@ Message Worker::call(const Message& request) {
 
     const std::string death = process_->killAndExplain();
     stop();
-    if (outcome == Outcome::done)
-        throw InputError("the decoder needs more than " + std::to_string(limits_.memoryBytes >> 20) + " MiB");
-    throw InputError(
-        outcome == Outcome::late ? "the decoder took longer than " + seconds(limits_.timeout) + " s" : death);
+    const std::string reason =
+        outcome == Outcome::done   ? "needs more than " + std::to_string(limits_.memoryBytes >> 20) + " MiB"
+        : outcome == Outcome::late ? "took longer than " + seconds(limits_.timeout) + " s"
+                                   : death;
+    WorkerFailure failure(limits_.subject + " " + reason);
+    failure.late = outcome == Outcome::late;
+    throw failure;
 }
 
 }  // namespace lobe

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/shared_memory.hpp"
 
 namespace lobe {
@@ -26,6 +27,13 @@ struct Message {
 struct WorkerLimits {
     size_t memoryBytes = size_t{4} << 30;       ///< RLIMIT_AS of the worker beyond what it maps at start
     std::chrono::milliseconds timeout{30'000};  ///< per request, wall clock
+    std::string subject = "the decoder";        ///< what the worker is called in reasons
+};
+
+/// The worker did not answer: it crashed, hung or took too much memory.
+struct WorkerFailure : InputError {
+    using InputError::InputError;
+    bool late = false;  ///< over the time limit
 };
 
 /// The parent's end. Not for use by two threads at once: give each its own.
@@ -39,8 +47,8 @@ public:
     Worker& operator=(const Worker&) = delete;
 
     /// Sends a request and waits for the reply. What the worker itself refuses is thrown with the worker's
-    /// exit code (OutputError, UsageError, otherwise InputError or Error); else InputError with a reason fit
-    /// for "FILE: REASON": "the decoder crashed (signal 11)", "the decoder took longer than 30 s", "the
+    /// exit code (OutputError, UsageError, otherwise InputError or Error); else WorkerFailure with a reason
+    /// fit for "FILE: REASON": "the decoder crashed (signal 11)", "the decoder took longer than 30 s", "the
     /// decoder needs more than 4096 MiB". The next call after one of the latter has a new process.
     /// std::length_error for a message over 64 blobs or 16 MiB of header.
     Message call(const Message& request);

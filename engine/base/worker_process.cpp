@@ -70,14 +70,14 @@ bool reapWithin(pid_t pid, std::chrono::milliseconds patience) {
 
 std::string describe(int status) {
     if (WIFEXITED(status))
-        return "the decoder ended unexpectedly (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
+        return "ended unexpectedly (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
     switch (WTERMSIG(status)) {
         case SIGXCPU:
-            return "the decoder took too much processor time";
+            return "took too much processor time";
         case SIGKILL:
-            return "the decoder was killed (signal 9; is the machine out of memory?)";
+            return "was killed (signal 9; is the machine out of memory?)";
         default:
-            return "the decoder crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+            return "crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
     }
 }
 
@@ -120,7 +120,7 @@ std::string WorkerProcess::killAndExplain() {
         reaped = waitpid(pid_, &status, 0);
     } while (reaped < 0 && errno == EINTR);
     const bool known = reaped == std::exchange(pid_, -1);
-    return known ? describe(status) : "the decoder ended unexpectedly";
+    return known ? describe(status) : "ended unexpectedly";
 }
 
 }  // namespace lobe

@@ -18,7 +18,7 @@ public:
 
     int socket() const { return socket_; }
 
-    /// Kills it, and says in words what it had died of before: "the decoder crashed (signal 11)".
+    /// Kills it, and says in words what it had died of before: "crashed (signal 11)".
     std::string killAndExplain();
 
 private:

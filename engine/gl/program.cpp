@@ -68,7 +68,8 @@ GLuint compile(GLenum kind, const ShaderSource& source, const std::string& name)
 
 }  // namespace
 
-Program::Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name) {
+Program::Program(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& name,
+                 const std::vector<std::string>& captured) {
     const GLuint vertexShader = compile(GL_VERTEX_SHADER, vertex, name);
     GLuint fragmentShader = 0;
     try {
@@ -80,6 +81,12 @@ Program::Program(const ShaderSource& vertex, const ShaderSource& fragment, const
     id_ = glCreateProgram();
     glAttachShader(id_, vertexShader);
     glAttachShader(id_, fragmentShader);
+    std::vector<const char*> names;
+    for (const std::string& output : captured)
+        names.push_back(output.c_str());
+    if (!names.empty())
+        glTransformFeedbackVaryings(id_, static_cast<GLsizei>(names.size()), names.data(),
+                                    GL_INTERLEAVED_ATTRIBS);
     glLinkProgram(id_);
     glDeleteShader(vertexShader);
     glDeleteShader(fragmentShader);

@@ -126,25 +126,6 @@ const std::vector<Kind>& kinds() {
     return list;
 }
 
-/// Tables one after the other as GLSL reads them, and where each starts.
-struct PackedTables {
-    std::vector<float> floats;
-    std::vector<int> firstRow;
-};
-
-PackedTables packTables(std::span<const TableRows> tables) {
-    PackedTables packed;
-    for (const TableRows& rows : tables) {
-        packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
-        packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
-    }
-    return packed;
-}
-
-PackedTables packExamples(const Brdf& brdf) {
-    return brdf.table ? packTables(exampleTables(brdf)) : PackedTables{};
-}
-
 /// The row's values with the place of its table.
 void appendValues(const Brdf& brdf, const BrdfRow& row, const PackedTables& tables,
                   std::vector<float>& inputs) {
@@ -203,6 +184,19 @@ void append(std::vector<float>& inputs, const glm::vec3& v) {
 }
 
 }  // namespace
+
+PackedTables packTables(std::span<const TableRows> tables) {
+    PackedTables packed;
+    for (const TableRows& rows : tables) {
+        packed.firstRow.push_back(static_cast<int>(packed.floats.size() / 4));
+        packed.floats.insert(packed.floats.end(), rows.begin(), rows.end());
+    }
+    return packed;
+}
+
+PackedTables packTables(const Brdf& brdf) {
+    return brdf.table ? packTables(exampleTables(brdf)) : PackedTables{};
+}
 
 std::vector<BrdfRow> brdfRows(const Brdf& brdf, int perKind, uint64_t seed) {
     Pcg32 random(seed);
@@ -264,7 +258,7 @@ WorldBrdfEvaluator::WorldBrdfEvaluator(const gl::ShaderLibrary& library, const B
 
 std::vector<glm::vec3> WorldBrdfEvaluator::evaluate(const std::vector<BrdfRow>& rows,
                                                     const std::vector<glm::vec3>& normals) const {
-    const PackedTables tables = packExamples(brdf_);
+    const PackedTables tables = packTables(brdf_);
     std::vector<float> inputs;
     for (size_t i = 0; i < rows.size(); ++i) {
         append(inputs, normals[i]);

@@ -29,6 +29,14 @@ std::vector<BrdfRow> brdfRows(const Brdf& brdf, int perKind, uint64_t seed);
 /// denormal cosines, L = -V exactly, directions of zero length.
 std::vector<BrdfRow> hostileRows(const Brdf& brdf, uint64_t seed);
 
+/// Tables one after the other, as GLSL reads them, and where each starts.
+struct PackedTables {
+    std::vector<float> floats;
+    std::vector<int> firstRow;
+};
+PackedTables packTables(std::span<const TableRows> tables);
+PackedTables packTables(const Brdf& brdf);  ///< those of its examples
+
 /// What the GLSL functions of a model gave for one row.
 struct BrdfResult {
     glm::vec3 fCos, ambient;

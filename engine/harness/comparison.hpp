@@ -1,8 +1,10 @@
 /// A model's GLSL against its double-precision twin, row by row.
 ///
-/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp). Rows
-/// whose allowance exceeds 10 % say nothing about the formula and only have to be finite and not negative;
-/// rows below 1e-38 have to stay below 1e-30.
+/// Tolerance of a row: 16 x 2^-24 (4 + c), relative, c the condition number of the row (condition.hpp); 4
+/// times the size of the terms over their sum where terms cancel. Rows whose allowance exceeds 10 % say
+/// nothing about the formula and only have to be finite and not negative; other rows below 1e-38 have to stay
+/// below 1e-30. The condition number is computed only where the error exceeds the worst one so far with c =
+/// 0, which leaves every verdict and the worst row as they are.
 #pragma once
 
 #include <string>
@@ -23,14 +25,16 @@ glm::dvec3 roundingUnit(const Brdf& brdf, const Directions& d, std::span<const d
 inline constexpr double kAllowedUnits = 16.0;
 /// Relative allowance above which a row says nothing about the formula.
 inline constexpr double kLargestAllowance = 0.1;
-/// Lobes that one rounding of a direction takes across this share of their width can't be followed by
-/// differences.
-inline constexpr double kNarrowestInRoundings = 0.03;
+/// Whether one rounding of a direction takes the lobe across 3 % of its width or more, so that differences
+/// can't follow it. A rounding turns the half vector by that much over cos(theta_d): where the directions
+/// nearly oppose each other, wide lobes are among them.
+bool tooNarrow(const Brdf& brdf, const Directions& d, std::span<const double> values);
 
 /// Keeps the worst error of a table in units of 2^-24 (4 + c).
 class Comparison {
 public:
-    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) {}
+    /// Throws UsageError for a model without a twin.
+    Comparison(const Brdf& brdf, Axes axes) : brdf_(brdf), axes_(axes) { requireTwin(brdf); }
 
     /// False if the row fails; message() then says where, with both values and the tolerance. `d` are the
     /// row's directions in the local frame, in double.
@@ -38,7 +42,13 @@ public:
 
     const std::string& message() const { return message_; }
     size_t count() const { return count_; }
-    double worst() const { return worst_; }  ///< of 16
+    double worst() const { return worst_; }                  ///< of 16
+    double worstRelative() const { return worstRelative_; }  ///< of the row of worst()
+    const std::string& worstRow() const { return worstRow_; }
+    /// Of the values whose condition number is at most 4.
+    uint64_t worstUlp() const { return worstUlp_; }
+    /// Share of the values that were not judged: off by more than 16 x 2^-24 x 4 where the allowance exceeds
+    /// 10 %, or of a lobe too narrow to be resolved.
     double illConditionedShare() const {
         return static_cast<double>(illConditioned_) / static_cast<double>(count_);
     }
@@ -54,6 +64,7 @@ private:
     size_t illConditioned_ = 0;
     double worst_ = 0.0;
     double worstRelative_ = 0.0;
+    uint64_t worstUlp_ = 0;
     std::string worstRow_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <ctime>
 #include <map>
 
 #include "gl/objects.hpp"
@@ -122,6 +123,55 @@ Evaluator::Evaluator(const gl::ShaderLibrary& library, Snippet snippet) : snippe
                            library.source(fragment, {}, generated), snippet_.name);
 }
 
+namespace {
+
+/// A table on the GPU, and what it is drawn into.
+struct Drawing {
+    size_t imageRows;
+    gl::Texture source;
+    std::vector<gl::Texture> targets;
+    gl::Framebuffer framebuffer;
+    gl::TextureBuffer table;
+
+    /// Binds everything for `program`.
+    Drawing(const Snippet& snippet, const gl::Program& program, std::span<const float> inputs,
+            std::span<const float> brdfTable)
+        : imageRows((inputs.size() / width(snippet) + kTableWidth - 1) / kTableWidth) {
+        const auto texels = static_cast<size_t>(texelsPerRow(snippet));
+        source = uploadInputs(
+            inputTexels(inputs, inputs.size() / width(snippet), width(snippet), texels, imageRows),
+            static_cast<int>(imageRows * texels));
+        std::vector<GLuint> colors;
+        for (int i = 0; i < snippet.results; ++i) {
+            targets.push_back(gl::makeTarget(GL_RGBA32F, kTableWidth, height()));
+            colors.push_back(targets.back().id());
+        }
+        framebuffer = gl::makeFramebuffer(colors, 0, GL_NONE);
+        program.use();
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, source.id());
+        program.set("uInputs", 0);
+        if (brdfTable.empty()) return;
+        table = gl::makeTextureBuffer(GL_RGBA32F, brdfTable.data(), brdfTable.size_bytes());
+        glActiveTexture(GL_TEXTURE1);
+        glBindTexture(GL_TEXTURE_BUFFER, table.texture.id());
+        glActiveTexture(GL_TEXTURE0);
+        program.set("uBrdfTable", 1);
+    }
+
+    static size_t width(const Snippet& snippet) { return static_cast<size_t>(inputWidth(snippet)); }
+    int height() const { return static_cast<int>(imageRows); }
+    void draw() const { drawInto(framebuffer, static_cast<int>(targets.size()), height()); }
+};
+
+double milliseconds(clockid_t clock) {
+    timespec now{};
+    clock_gettime(clock, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+}  // namespace
+
 ResultTable Evaluator::evaluate(std::span<const float> inputs, std::span<const float> brdfTable) const {
     const auto width = static_cast<size_t>(inputWidth(snippet_));
     const size_t rows = width == 0 ? 0 : inputs.size() / width;
@@ -130,36 +180,12 @@ ResultTable Evaluator::evaluate(std::span<const float> inputs, std::span<const f
                       std::vector<float>(rows * 4 * static_cast<size_t>(snippet_.results))};
     if (rows == 0) return table;
 
-    const size_t imageRows = (rows + kTableWidth - 1) / kTableWidth;
-    const auto texels = static_cast<size_t>(texelsPerRow(snippet_));
-    const gl::Texture source = uploadInputs(inputTexels(inputs, rows, width, texels, imageRows),
-                                            static_cast<int>(imageRows * texels));
-    const int height = static_cast<int>(imageRows);
-    std::vector<gl::Texture> targets;
-    std::vector<GLuint> colors;
-    for (int i = 0; i < snippet_.results; ++i) {
-        targets.push_back(gl::makeTarget(GL_RGBA32F, kTableWidth, height));
-        colors.push_back(targets.back().id());
-    }
-    const gl::Framebuffer framebuffer = gl::makeFramebuffer(colors, 0, GL_NONE);
-    program_.use();
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, source.id());
-    program_.set("uInputs", 0);
-    gl::TextureBuffer tableBuffer;
-    if (!brdfTable.empty()) {
-        tableBuffer = gl::makeTextureBuffer(GL_RGBA32F, brdfTable.data(), brdfTable.size_bytes());
-        glActiveTexture(GL_TEXTURE1);
-        glBindTexture(GL_TEXTURE_BUFFER, tableBuffer.texture.id());
-        glActiveTexture(GL_TEXTURE0);
-        program_.set("uBrdfTable", 1);
-    }
-    drawInto(framebuffer, snippet_.results, height);
-
-    std::vector<float> image(imageRows * kTableWidth * 4);
+    const Drawing drawing(snippet_, program_, inputs, brdfTable);
+    drawing.draw();
+    std::vector<float> image(drawing.imageRows * kTableWidth * 4);
     for (int i = 0; i < snippet_.results; ++i) {
         glReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
-        glReadPixels(0, 0, kTableWidth, height, GL_RGBA, GL_FLOAT, image.data());
+        glReadPixels(0, 0, kTableWidth, drawing.height(), GL_RGBA, GL_FLOAT, image.data());
         for (size_t row = 0; row < rows; ++row)
             std::copy_n(image.begin() + static_cast<std::ptrdiff_t>(row * 4), 4,
                         table.values.begin() +
@@ -169,6 +195,24 @@ ResultTable Evaluator::evaluate(std::span<const float> inputs, std::span<const f
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     gl::checkErrors("evaluating a table");
     return table;
+}
+
+std::vector<double> Evaluator::drawTimes(std::span<const float> inputs, std::span<const float> brdfTable,
+                                         int runs, bool softwareDriver) const {
+    const Drawing drawing(snippet_, program_, inputs, brdfTable);
+    const clockid_t clock = softwareDriver ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC;
+    drawing.draw();  // compiles the variant for these targets
+    glFinish();
+    std::vector<double> times;
+    for (int run = 0; run < runs; ++run) {
+        const double start = milliseconds(clock);
+        drawing.draw();
+        glFinish();
+        times.push_back(milliseconds(clock) - start);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl::checkErrors("timing a table");
+    return times;
 }
 
 }  // namespace lobe::harness

@@ -50,6 +50,11 @@ public:
     /// common/table.glsl reads, four floats a row.
     ResultTable evaluate(std::span<const float> inputs, std::span<const float> brdfTable = {}) const;
 
+    /// For benchmarks: milliseconds of each of `runs` draws of the table, without upload and reading back. On
+    /// software drivers those of all cores together, which other programs do not stretch.
+    std::vector<double> drawTimes(std::span<const float> inputs, std::span<const float> brdfTable, int runs,
+                                  bool softwareDriver) const;
+
     const Snippet& snippet() const { return snippet_; }
 
 private:

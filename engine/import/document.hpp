@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "import/content_hash.hpp"
+#include "base/content_hash.hpp"
 #include "import/tinygltf.hpp"
 
 namespace lobe {

@@ -64,8 +64,9 @@ public:
     }
 
 private:
-    /// Refuses a scene whose primitives, which may share accessors or have no bytes of their own, unpack to far
-    /// more than the file holds, before any is unpacked. The largest is left to the checks of its accessors.
+    /// Refuses a scene whose primitives, which may share accessors or have no bytes of their own, unpack to
+    /// far more than the file holds, before any is unpacked. The largest is left to the checks of its
+    /// accessors.
     void checkGeometry() const {
         uint64_t most = 0;
         for (const std::span<const std::byte> buffer : document_.buffers) {

@@ -16,6 +16,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kTextureSuffix = "Texture";
+constexpr const char* kPreset = "preset";
 constexpr const char* kFresnelGroup = "fresnel";
 
 std::string joined(const std::vector<std::string>& names) {
@@ -36,7 +37,13 @@ public:
         material_.values = brdf_.defaults();
         material_.textures.assign(brdf_.parameters.size(), {});
         material_.textureChannels.assign(brdf_.parameters.size(), 0);
+        if (hasPresets() && extension.contains(kPreset)) {
+            readPreset(extension[kPreset]);
+        }
         for (const auto& [key, value] : extension.items()) {
+            if (hasPresets() && key == kPreset) {
+                continue;
+            }
             if (key != "model" && key != "extras" && key != "extensions") {
                 readProperty(key, value);
             }
@@ -45,6 +52,23 @@ public:
     }
 
 private:
+    bool hasPresets() const { return !brdf_.presets.empty(); }
+
+    /// Published values by name, which the parameters beside them replace one by one.
+    void readPreset(const json& name) {
+        const std::string given = name.is_string() ? name.get<std::string>() : "";
+        if (const BrdfPreset* preset = brdf_.findPreset(given)) {
+            material_.values = preset->values;
+            return;
+        }
+        std::vector<std::string> names;
+        for (const BrdfPreset& preset : brdf_.presets) {
+            names.push_back(preset.name);
+        }
+        refuse(document_.file, property_ + "." + kPreset, shown(name),
+               "one of " + joined(names) + didYouMean(given, names));
+    }
+
     bool isGroup(const std::string& key) const {
         return std::any_of(brdf_.parameters.begin(), brdf_.parameters.end(),
                            [&](const Parameter& parameter) { return parameter.group == key; });
@@ -253,6 +277,9 @@ private:
 
     std::vector<std::string> knownNames(const std::string& group) const {
         std::vector<std::string> names;
+        if (group.empty() && hasPresets()) {
+            names.emplace_back(kPreset);
+        }
         for (const Parameter& parameter : brdf_.parameters) {
             if (parameter.group != group) {
                 if (group.empty() && parameter.group == parameter.name) {

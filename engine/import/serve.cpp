@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "import/import.hpp"
@@ -8,6 +9,9 @@ namespace lobe {
 
 Message serveImport(const Message& request) {
     const auto [file, options] = readLoadRequest(request);
+    std::vector<Brdf> models;
+    std::transform(options.brdfs.begin(), options.brdfs.end(), std::back_inserter(models), brdfFromSource);
+    setLoadedBrdfs(std::move(models));
     Imported imported = importGltf(file, options);
     std::vector<PackedImage> images;
     size_t total = 0;

@@ -14,7 +14,7 @@ std::string uniformName(const Parameter& parameter) {
 
 /// Includes the model and gives it the names that the passes call it by.
 std::string modelAliases(const Brdf& brdf) {
-    std::string text = "#include \"brdf/" + brdf.name + ".glsl\"\n";
+    std::string text = "#include \"brdf/" + brdf.name + ".glsl\"\n" + brdf.glslSubstitutes;
     text += "#define MODEL_PARAMS " + glslParameterType(brdf) + "\n";
     for (const char* function : {"f_cos", "ambient", "roughness"})
         text += std::string("#define model_") + function + " " + brdf.name + "_" + function + "\n";

@@ -26,6 +26,13 @@ glm::dvec2 jitter(int index, int count) {
 
 }  // namespace
 
+gl::ShaderLibrary shaderLibrary() {
+    gl::ShaderLibrary library(shaderDirectory());
+    for (const Brdf& brdf : loadedBrdfs())
+        library.mount("brdf/" + brdf.name + ".glsl", brdf.file, brdf.glsl);
+    return library;
+}
+
 Capabilities capabilitiesOf(const gl::ContextInfo& info) {
     Capabilities capabilities;
     capabilities.clipControl = info.clipControl;
@@ -40,9 +47,7 @@ Capabilities capabilitiesOf(const gl::ContextInfo& info) {
 
 struct Renderer::State {
     explicit State(gl::Context& glContext)
-        : context(glContext),
-          capabilities(capabilitiesOf(glContext.info())),
-          programs(gl::ShaderLibrary(shaderDirectory())) {}
+        : context(glContext), capabilities(capabilitiesOf(glContext.info())), programs(shaderLibrary()) {}
 
     /// All that belongs to one scene and one set of options.
     struct SceneState {

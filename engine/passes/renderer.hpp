@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl/context.hpp"
+#include "gl/program.hpp"
 #include "image/image.hpp"
 #include "plan/plan.hpp"
 #include "scene/camera.hpp"
@@ -35,10 +36,14 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
+/// The GLSL library, with the models that were loaded from files of their own (shading/brdf_file.hpp).
+gl::ShaderLibrary shaderLibrary();
+
 /// What planning needs to know of a context.
 Capabilities capabilitiesOf(const gl::ContextInfo& info);
 
-/// One a context; reuses uploads and programs from picture to picture. Throws ShaderError, ContextError.
+/// One a context; knows the models that are registered when it is made; reuses uploads and programs from
+/// picture to picture. Throws ShaderError, ContextError.
 class Renderer {
 public:
     explicit Renderer(gl::Context& context);

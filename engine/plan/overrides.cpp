@@ -56,10 +56,12 @@ Scene withBrdf(const Scene& scene, const Brdf& brdf) {
             // A named model's own colour says more than the glTF material that it replaces.
             const Brdf& old = requireBrdf(material.brdf);
             const int color = old.parameterIndex(old.baseColorParameter);
-            const auto offset = static_cast<size_t>(old.valueOffset(color));
-            description.baseColor = {material.values[offset], material.values[offset + 1],
-                                     material.values[offset + 2]};
-            baseColorTexture = material.textures[static_cast<size_t>(color)];
+            if (color >= 0) {  // a model from a file need not have one
+                const auto offset = static_cast<size_t>(old.valueOffset(color));
+                description.baseColor = {material.values[offset], material.values[offset + 1],
+                                         material.values[offset + 2]};
+                baseColorTexture = material.textures[static_cast<size_t>(color)];
+            }
         }
         description.roughness *= meanOfChannel(scene, material.metallicRoughnessTexture, 1);
         description.metallic *= meanOfChannel(scene, material.metallicRoughnessTexture, 2);

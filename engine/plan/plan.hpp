@@ -54,7 +54,7 @@ struct PlannedPass {
 };
 
 struct LeftOut {
-    std::string kind;  ///< "pass", "channel", "vertex data", "texture", "buffer"
+    std::string kind;  ///< "pass", "channel", "vertex data", "texture", "buffer", "program part"
     std::string name;
     std::string reason;
 };

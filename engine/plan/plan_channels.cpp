@@ -33,6 +33,9 @@ void Planner::planModels() {
         brdf.stencil = plan_.masked ? ++stencil : 0;
         brdf.perMaterial.assign(facts.perMaterial.begin(), facts.perMaterial.end());
         plan_.brdfs.push_back(brdf);
+        if (const Brdf* model = findBrdf(facts.name); model != nullptr && !model->file.empty())
+            plan_.notes.push_back("model " + facts.name + ": loaded from " + model->file +
+                                  "; it has no twin to be checked against");
     }
     if (stencil > 255) throw InputError("scene uses more than 255 reflectance models; expected at most 255");
 }
@@ -98,8 +101,14 @@ void Planner::planTangent() {
 
 /// The rows that models read beside their parameters.
 void Planner::planTable() {
+    for (const auto& [what, materials] : scene_.bands)
+        plan_.notes.push_back("Fresnel's equations: " + what + " of wavelength, for " +
+                              plural(materials, "material") + "; exact in each, then summed to linear sRGB");
+    if (scene_.bands.empty())
+        leaveOut("program part", "bands of wavelength",
+                 "no metal is to be evaluated in more than red, green and blue");
     if (scene_.tableRows == 0) {
-        leaveOut("buffer", "table of models", "no model in use reads lobes or measurements");
+        leaveOut("buffer", "table of models", "no model in use reads lobes, measurements or bands");
         return;
     }
     const auto most = static_cast<size_t>(capabilities_.maxTextureBufferTexels);
@@ -108,8 +117,8 @@ void Planner::planTable() {
                            " rows; expected at most " + std::to_string(most) +
                            ", what the driver's buffers hold");
     plan_.notes.push_back("table of models: " + std::to_string(scene_.tableRows) +
-                          " rows of lobes or measurements, " + std::to_string(scene_.tableRows * 16 / 1024) +
-                          " KiB");
+                          " rows of lobes, measurements or bands, " +
+                          std::to_string(scene_.tableRows * 16 / 1024) + " KiB");
 }
 
 void Planner::planMaterialId() {

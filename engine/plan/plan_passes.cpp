@@ -62,6 +62,7 @@ Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const 
     flag("UNLIT", features.brdf == kUnlit);
     flag("AMBIENT", scene_.ambient && features.brdf != kUnlit);
     flag("OCCLUSION", features.texture("occlusion") != nullptr);
+    flag("FRESNEL_BANDS", scene_.bandedBrdfs.contains(features.brdf));
     flag("USES_TANGENT", features.brdf != kUnlit && requireBrdf(features.brdf).traits.usesTangent);
     return defines;
 }
@@ -142,6 +143,7 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
             Defines defines = commonDefines();
             defines[key] = value;
             if (requireBrdf(brdf.name).traits.usesTangent) defines["USES_TANGENT"] = "1";
+            if (scene_.bandedBrdfs.contains(brdf.name)) defines["FRESNEL_BANDS"] = "1";
             if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
             pass.variants.push_back({brdf.name, -1, defines});
         }
@@ -208,6 +210,7 @@ void Planner::planDataAovs() {
     for (const PlannedBrdf& brdf : plan_.brdfs) {
         Defines defines = commonDefines();
         if (brdf.name == kUnlit) defines["UNLIT"] = "1";
+        if (scene_.bandedBrdfs.contains(brdf.name)) defines["FRESNEL_BANDS"] = "1";
         defines.insert(outputs.begin(), outputs.end());
         pass.variants.push_back({brdf.name, -1, defines});
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/brdf_tables.hpp"
+#include "shading/bands.hpp"
 
 namespace lobe {
 namespace {
@@ -123,6 +124,19 @@ void countLights(const Scene& scene, SceneSummary& summary) {
     summary.ambient = scene.ambientRadiance && *scene.ambientRadiance != glm::dvec3(0.0);
 }
 
+void countBands(const Scene& scene, const std::set<int>& materials, SceneSummary& summary) {
+    for (int m : materials) {
+        const Material& material = scene.materials[static_cast<size_t>(m)];
+        const Brdf* brdf = findBrdf(material.brdf);
+        if (brdf == nullptr || !shading::hasBands(*brdf, material.values)) continue;
+        summary.bandedBrdfs.insert(material.brdf);
+        const size_t eta = shading::fresnelPlaces(*brdf)->eta;
+        const auto& metal = shading::metalSpectra()[static_cast<size_t>(material.values[eta]) - 1];
+        ++summary.bands[metal.name + " in " + std::to_string(static_cast<int>(material.values[eta + 1])) +
+                        " bands"];
+    }
+}
+
 }  // namespace
 
 const SurfaceTexture* SurfaceFeatures::texture(std::string_view slot) const {
@@ -215,6 +229,7 @@ SceneSummary summarise(const Scene& scene) {
             list.push_back(use);
         summary.brdfs.push_back(factsOf(name, list));
     }
+    countBands(scene, materials, summary);
     summary.tableRows = tableRows(scene.materials);
     summary.surfaces.assign(surfaces.begin(), surfaces.end());
     summary.materialsInUse.assign(materials.begin(), materials.end());

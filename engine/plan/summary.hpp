@@ -57,7 +57,10 @@ struct SurfaceFeatures {
 };
 
 struct SceneSummary {
-    size_t tableRows = 0;          ///< of the tables that models read beside their parameters
+    std::set<std::string>
+        bandedBrdfs;  ///< models of materials whose metals are evaluated in bands of wavelength
+    std::map<std::string, int> bands;  ///< "gold in 16 bands" -> materials
+    size_t tableRows = 0;              ///< of the tables that models read beside their parameters
     std::vector<BrdfFacts> brdfs;  ///< sorted by name; kUnlit included; of opaque and masked surfaces only
     std::set<std::string> blendedBrdfs;
     std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once
@@ -90,6 +93,21 @@ bool slotIsSrgb(const Material& material, std::string_view slot);
 /// The scene with every material's model replaced (`--brdf NAME`): parameters by Brdf::fromMetallicRoughness,
 /// the base colour texture carried over, other textures by their mean; unlit materials stay.
 Scene withBrdf(const Scene& scene, const Brdf& brdf);
+
+/// A parameter's value for a whole scene (`--brdf-set NAME=TEXT`).
+struct ParameterOverride {
+    std::string name;  ///< as in the scene format or in GLSL; "metal": the three of Fresnel by a name
+    std::string text;  ///< as it was written
+    std::vector<double> numbers;  ///< what `text` says, where it is one number or three
+};
+
+/// The scene with the value set in each material whose model has that parameter, in place of its texture too.
+/// Throws UsageError for a value that does not fit, and for a parameter that no model of the scene has.
+Scene withParameters(const Scene& scene, const std::vector<ParameterOverride>& changes);
+
+/// The scene with the metals that it names, where their spectra are known, in `count` bands of wavelength (4
+/// to 64) in place of three indices; of others it says in its warnings that they stay in RGB.
+Scene withBands(const Scene& scene, int count);
 
 /// The documented light of a scene without any (docs/scenes.md): a key light over the camera's left shoulder
 /// and a little ambient. Returns false, and adds nothing, if the scene has a light or nothing that takes

@@ -45,8 +45,7 @@ double ulpsApart(double got, double exact) {
 /// Share of the allowance by channel; 0 where a value says nothing about the formula.
 glm::dvec3 shareOf(const Model& model, const Directions& d, const glm::dvec3& got, const glm::dvec3& exact) {
     glm::dvec3 share(0.0);
-    if (model.brdf->lobeSharpness(model.values) * kFloatRounding > harness::kNarrowestInRoundings)
-        return share;
+    if (harness::tooNarrow(*model.brdf, d, model.values)) return share;
     const glm::dvec3 allowance =
         harness::kAllowedUnits * harness::roundingUnit(*model.brdf, d, model.values, harness::Axes::local);
     for (int c = 0; c < 3; ++c)

@@ -34,7 +34,9 @@ FresnelCurve curveOf(const Sampler& sampler, const Interface& interface, const s
     const std::vector<double> schlick =
         reflectances(sampler, {{"fresnel", "schlick"}, {"f0", shortNumber(curve.f0)}}, pairs);
     for (size_t i = 0; i < angles.size(); ++i) {
-        const auto [s, p] = shading::polarisedReflectance({eta, k}, std::cos(glm::radians(angles[i])));
+        const double halfSine = std::sin(0.5 * glm::radians(angles[i]));
+        const auto [s, p] = shading::polarisedReflectance({eta, k}, std::cos(glm::radians(angles[i])),
+                                                          2.0 * halfSine * halfSine);
         curve.points.push_back({angles[i], exact[i], s, p, schlick[i]});
         const double difference = schlick[i] - exact[i];
         if (std::abs(difference) > std::abs(curve.largestDifference)) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shading/bands.hpp"
+
 namespace lobe {
 namespace {
 
@@ -13,7 +15,12 @@ struct Table {
 
 Table tableOf(const Material& material) {
     const Brdf* brdf = findBrdf(material.brdf);
-    if (brdf == nullptr || !brdf->table) return {};
+    if (brdf == nullptr) return {};
+    if (shading::hasBands(*brdf, material.values)) {
+        const shading::FresnelPlaces places = *shading::fresnelPlaces(*brdf);
+        return {shading::bandRowsIn(std::span(material.values).subspan(places.eta, 3)), places.k};
+    }
+    if (!brdf->table) return {};
     return {brdf->tableOf(material.values), static_cast<size_t>(brdf->valueOffset(brdf->tableParameter()))};
 }
 
@@ -31,7 +38,8 @@ void placeTables(std::vector<Material>& materials) {
         material.values[table.place] = known != placed.end() ? known->second : next;
         if (known != placed.end()) continue;
         placed.emplace_back(table.rows, next);
-        next += static_cast<double>(table.rows.size() / 4);
+        const size_t rows = table.rows.size() / 4;
+        next += static_cast<double>(rows);
     }
 }
 

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "image/image_files.hpp"
 #include "scene/scene.hpp"
+#include "shading/brdf_file.hpp"
 
 namespace lobe {
 
@@ -19,6 +21,7 @@ enum class NormalsMode : uint8_t {
 struct LoadOptions {
     double time = 0.0;  ///< seconds; all animations are posed at it (clamped to each one's end)
     NormalsMode normals = NormalsMode::asFile;
+    std::vector<BrdfSource> brdfs = {};  ///< models from files, which the scene may name as well
 };
 
 /// Reads, validates and poses a scene. The file is parsed in lobe-scene-worker and its images are decoded in

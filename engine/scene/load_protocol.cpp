@@ -16,6 +16,11 @@ std::span<const std::byte> asBytes(const std::string& text) {
     return std::as_bytes(std::span(text));
 }
 
+std::string textIn(const SharedMemory& blob) {
+    const auto bytes = blob.bytes();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
 
 Message writeLoadRequest(const LoadRequest& request) {
@@ -23,17 +28,22 @@ Message writeLoadRequest(const LoadRequest& request) {
     message.header =
         json{{"time", request.options.time}, {"normals", static_cast<int>(request.options.normals)}}.dump();
     message.blobs.push_back(SharedMemory::copyOf(asBytes(request.file.native())));
+    for (const BrdfSource& source : request.options.brdfs) {
+        message.blobs.push_back(SharedMemory::copyOf(asBytes(source.file)));
+        message.blobs.push_back(SharedMemory::copyOf(asBytes(source.text)));
+    }
     return message;
 }
 
 LoadRequest readLoadRequest(const Message& message) {
     const json header = json::parse(message.header, nullptr, false);
-    if (!header.is_object() || message.blobs.empty()) {
+    if (!header.is_object() || message.blobs.size() % 2 != 1) {
         throw InputError("a request to the scene worker: not readable");
     }
-    const auto path = message.blobs[0].bytes();
     LoadRequest request;
-    request.file = std::string(reinterpret_cast<const char*>(path.data()), path.size());
+    request.file = textIn(message.blobs[0]);
+    for (size_t i = 1; i < message.blobs.size(); i += 2)
+        request.options.brdfs.push_back({textIn(message.blobs[i]), textIn(message.blobs[i + 1])});
     request.options.time = header.value("time", 0.0);
     request.options.normals = static_cast<NormalsMode>(header.value("normals", 0));
     return request;

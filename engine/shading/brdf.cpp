@@ -38,6 +38,17 @@ bool isValid(const Parameter& parameter, double value) {
     return !whole || value == std::floor(value);
 }
 
+std::vector<Brdf>& loaded() {
+    static std::vector<Brdf> brdfs;
+    return brdfs;
+}
+
+const Brdf* findIn(const std::vector<Brdf>& brdfs, std::string_view name) {
+    const auto found =
+        std::find_if(brdfs.begin(), brdfs.end(), [&](const Brdf& b) { return b.name == name; });
+    return found == brdfs.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 const char* glslType(ParameterKind kind) {
@@ -82,6 +93,12 @@ ParameterValues Brdf::defaults() const {
     return values;
 }
 
+const BrdfPreset* Brdf::findPreset(std::string_view presetName) const {
+    const auto found = std::find_if(presets.begin(), presets.end(),
+                                    [&](const BrdfPreset& preset) { return preset.name == presetName; });
+    return found == presets.end() ? nullptr : &*found;
+}
+
 int Brdf::tableParameter() const {
     const auto found = std::find_if(parameters.begin(), parameters.end(),
                                     [](const Parameter& p) { return p.kind == ParameterKind::table; });
@@ -111,18 +128,40 @@ const std::vector<Brdf>& allBrdfs() {
     return brdfs;
 }
 
+const std::vector<Brdf>& loadedBrdfs() {
+    return loaded();
+}
+
+void setLoadedBrdfs(std::vector<Brdf> brdfs) {
+    for (size_t i = 0; i < brdfs.size(); ++i) {
+        if (findIn(allBrdfs(), brdfs[i].name) != nullptr)
+            throw UsageError(brdfs[i].file + ": " + brdfs[i].name +
+                             " is a model that comes with Lobe; expected another file name");
+        for (size_t j = 0; j < i; ++j)
+            if (brdfs[j].name == brdfs[i].name)
+                throw UsageError(brdfs[i].file + ": a model " + brdfs[i].name + " is loaded from " +
+                                 brdfs[j].file + " already; expected another file name");
+    }
+    loaded() = std::move(brdfs);
+}
+
 std::vector<std::string> brdfNames() {
     std::vector<std::string> names;
-    for (const Brdf& brdf : allBrdfs())
-        names.push_back(brdf.name);
+    for (const std::vector<Brdf>* brdfs : {&allBrdfs(), &loadedBrdfs()})
+        for (const Brdf& brdf : *brdfs)
+            names.push_back(brdf.name);
     return names;
 }
 
 const Brdf* findBrdf(std::string_view name) {
-    const auto& brdfs = allBrdfs();
-    const auto found =
-        std::find_if(brdfs.begin(), brdfs.end(), [&](const Brdf& b) { return b.name == name; });
-    return found == brdfs.end() ? nullptr : &*found;
+    const Brdf* found = findIn(allBrdfs(), name);
+    return found != nullptr ? found : findIn(loadedBrdfs(), name);
+}
+
+void requireTwin(const Brdf& brdf) {
+    if (!brdf.fCos)
+        throw UsageError("model " + brdf.name + " was loaded from " + brdf.file +
+                         " and has no double-precision twin; expected a model that comes with Lobe");
 }
 
 const Brdf& requireBrdf(std::string_view name) {

@@ -60,6 +60,13 @@ struct TableFormat {
     std::function<std::vector<std::pair<std::string, TableRows>>()> examples;
 };
 
+/// Published values for a surface, which scenes refer to by name.
+struct BrdfPreset {
+    std::string name;    ///< "rolled brass"
+    std::string source;  ///< where the values are from, and what about them is not
+    ParameterValues values;
+};
+
 /// The glTF description of a surface, from which each model can be set up when it is chosen for a whole
 /// scene.
 struct MetallicRoughness {
@@ -84,6 +91,9 @@ struct BrdfTraits {
     /// The formula sees angles only. False where it multiplies components of both directions as they are, so
     /// that lengths that are 1 only to rounding count.
     bool anglesOnly = true;
+    /// The lobe is one of the half vector, whose direction rounding blurs where wi and wo nearly oppose each
+    /// other; else of the mirrored direction.
+    bool halfVectorLobe = true;
     bool usesTangent = false;   ///< anisotropic: needs the frame's x axis
     bool scattersLight = true;  ///< false: shows no light without extent (ideal mirrors)
 };
@@ -95,11 +105,16 @@ struct Brdf {
     std::string source;  ///< paper
     std::vector<Parameter> parameters;
     std::optional<TableFormat> table;
+    std::vector<BrdfPreset> presets;
     BrdfTraits traits;
 
     /// f_r(wi, wo) * cos(theta_i), in 1/sr, in double, from the paper's formula: the twin of NAME_f_cos in
-    /// GLSL.
+    /// GLSL. Absent in models that were loaded from a file of their own (brdf_file.hpp): requireTwin().
     std::function<glm::dvec3(const Directions&, std::span<const double>)> fCos;
+
+    /// Sum of the absolute values of the terms of fCos, where some of them are negative: each has roundings
+    /// of its own, however small the sum. Absent: fCos.
+    std::function<glm::dvec3(const Directions&, std::span<const double>)> termSizes;
 
     /// The factor k_a that multiplies LOBE_ambient's radiance: the twin of NAME_ambient in GLSL.
     std::function<glm::dvec3(std::span<const double>)> ambient;
@@ -119,21 +134,33 @@ struct Brdf {
     /// "baseColor".
     std::string baseColorParameter;
 
+    /// Models that were loaded at run time only: the GLSL file, its text when it was read, and what stands in
+    /// for functions that it lacks.
+    std::string file, glsl, glslSubstitutes;
+
     int parameterIndex(std::string_view parameterName) const;  ///< -1 if there is none
     int valueOffset(int parameterIndex) const;                 ///< of its first double in ParameterValues
     int valueCount() const;                                    ///< without the table
     ParameterValues defaults() const;
+    const BrdfPreset* findPreset(std::string_view presetName) const;  ///< null if there is none
     int tableParameter() const;  ///< index of the parameter of kind table, -1 if there is none
     /// The table's numbers at the end of `values`, four a row.
     std::span<const double> tableOf(std::span<const double> values) const;
 };
 
-/// All models, sorted by name. References stay valid for the program's life.
+/// All models that come with Lobe, sorted by name. References stay valid for the program's life.
 const std::vector<Brdf>& allBrdfs();
-std::vector<std::string> brdfNames();
+/// Those loaded from files (brdf_file.hpp), until others take their place.
+const std::vector<Brdf>& loadedBrdfs();
+/// Takes the place of those loaded before. Not while another thread uses the registry. Throws UsageError if
+/// two, or one and a model that comes with Lobe, have one name.
+void setLoadedBrdfs(std::vector<Brdf> brdfs);
+std::vector<std::string> brdfNames();  ///< of both
 const Brdf* findBrdf(std::string_view name);
 /// Throws UsageError with the nearest name.
 const Brdf& requireBrdf(std::string_view name);
+/// Throws UsageError for a model without a twin, which only those loaded from files are.
+void requireTwin(const Brdf& brdf);
 
 /// Throws InputError "WHERE: PARAMETER: VALUE; expected MIN..MAX" if a value is out of range or not finite.
 void validateParameters(const Brdf& brdf, std::span<const double> values, const std::string& where);

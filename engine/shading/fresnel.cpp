@@ -2,28 +2,50 @@
 
 #include <cmath>
 
+#include "shading/bands.hpp"
+
 namespace lobe::shading {
 namespace {
 
 using Complex = std::complex<double>;
 
-double exact(Complex index, double cosTheta) {
-    const auto [s, p] = polarisedReflectance(index, cosTheta);
-    return 0.5 * (s + p);
+double schlick(double f0, double oneMinusCos) {
+    return f0 + (1.0 - f0) * std::pow(oneMinusCos, 5.0);
 }
 
-double schlick(double f0, double cosTheta) {
-    return f0 + (1.0 - f0) * std::pow(1.0 - cosTheta, 5.0);
+glm::dvec3 reflectanceAt(std::span<const double> values, double cosTheta, double oneMinusCos) {
+    const auto type = static_cast<FresnelType>(static_cast<int>(values[0]));
+    if (type == FresnelType::bands)
+        return bandReflectance(bandsIn(values.subspan(4, 3)), cosTheta, oneMinusCos);
+    glm::dvec3 reflectance;
+    for (size_t i = 0; i < 3; ++i) {
+        const double eta = values[4 + i];
+        const double k = type == FresnelType::conductor ? values[7 + i] : 0.0;
+        reflectance[static_cast<int>(i)] = type == FresnelType::schlick
+                                               ? schlick(values[1 + i], oneMinusCos)
+                                               : exactReflectance({eta, k}, cosTheta, oneMinusCos);
+    }
+    return reflectance;
 }
 
 }  // namespace
 
-PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta) {
-    const double sin2 = (1.0 - cosTheta) * (1.0 + cosTheta);
+/// Amplitudes of both polarisations from Snell's law with a complex index.
+PolarisedReflectance polarisedReflectance(Complex index, double cosTheta, double oneMinusCos) {
+    const double sin2 = oneMinusCos * (1.0 + cosTheta);
     const Complex transmitted = std::sqrt(1.0 - sin2 / (index * index));
     const Complex s = (cosTheta - index * transmitted) / (cosTheta + index * transmitted);
     const Complex p = (index * cosTheta - transmitted) / (index * cosTheta + transmitted);
     return {std::norm(s), std::norm(p)};
+}
+
+double exactReflectance(Complex index, double cosTheta, double oneMinusCos) {
+    const auto [s, p] = polarisedReflectance(index, cosTheta, oneMinusCos);
+    return 0.5 * (s + p);
+}
+
+double exactReflectance(Complex index, double cosTheta) {
+    return exactReflectance(index, cosTheta, 1.0 - cosTheta);
 }
 
 std::vector<Parameter> fresnelParameters() {
@@ -44,18 +66,18 @@ std::vector<Parameter> fresnelParameters() {
 }
 
 glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta) {
-    const auto type = static_cast<FresnelType>(static_cast<int>(values[0]));
+    return reflectanceAt(values, cosTheta, 1.0 - cosTheta);
+}
+
+glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& d) {
     // Half vectors of unit vectors can exceed the cosine of 0 by a rounding.
-    const double c = std::min(cosTheta, 1.0);
-    glm::dvec3 reflectance;
-    for (size_t i = 0; i < 3; ++i) {
-        const auto channel = static_cast<int>(i);
-        const double eta = values[4 + i];
-        reflectance[channel] = type == FresnelType::schlick
-                                   ? schlick(values[1 + i], c)
-                                   : exact({eta, type == FresnelType::conductor ? values[7 + i] : 0.0}, c);
-    }
-    return reflectance;
+    const double cosTheta = std::min(0.5 * glm::length(d.h), 1.0);
+    return reflectanceAt(values, cosTheta, oneMinusCosThetaD(d));
+}
+
+double oneMinusCosThetaD(const Directions& d) {
+    const glm::dvec3 half = 0.5 * (d.wi - d.wo);  // as long as the sine
+    return std::min(glm::dot(half, half) / (1.0 + 0.5 * glm::length(d.h)), 1.0);
 }
 
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface) {

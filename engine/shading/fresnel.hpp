@@ -9,7 +9,13 @@
 
 namespace lobe::shading {
 
-enum class FresnelType : uint8_t { schlick, dielectric, conductor };
+/// `bands` (shading/bands.hpp) takes the place of a metal's three indices where more are asked for.
+enum class FresnelType : uint8_t { schlick, dielectric, conductor, bands };
+
+/// Exact, for one wavelength.
+double exactReflectance(std::complex<double> index, double cosTheta);
+/// 1 - cos(theta) given along, to all digits near 0 too.
+double exactReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
 /// Parameters `fresnel` (the type), `f0`, `eta`, `k`: the scene format's object "fresnel".
 std::vector<Parameter> fresnelParameters();
@@ -19,12 +25,18 @@ inline constexpr size_t kFresnelValues = 10;
 /// Wolf, Principles of Optics) with complex index eta + i k; Schlick, Computer Graphics Forum 13(3), 1994.
 glm::dvec3 fresnelReflectance(std::span<const double> values, double cosTheta);
 
+/// The same for the angle between either direction and their half vector, to all digits near 0 too.
+glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& d);
+
+/// 1 - V.H, to all digits near 0 too.
+double oneMinusCosThetaD(const Directions& d);
+
 /// Squared amplitudes from Snell's law with the complex index eta + i k, perpendicular (s) and parallel (p)
 /// to the plane of incidence; unpolarised light has their mean.
 struct PolarisedReflectance {
     double s, p;
 };
-PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta);
+PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);

@@ -1,10 +1,32 @@
 #include "shading/lafortune_fits.hpp"
 
+#include <glm/gtc/constants.hpp>
+
 namespace lobe::shading {
+namespace {
+
+constexpr const char* kLafortune =
+    "E. P. F. Lafortune et al., Non-linear approximation of reflectance functions, SIGGRAPH 1997, from "
+    "coefficient files in circulation";
+constexpr const char* kMarschner =
+    "S. R. Marschner et al., Image-based BRDF measurement including human skin, EGWR 1999, from coefficient "
+    "files in circulation";
+constexpr const char* kNgan =
+    "fit to MERL data: A. Ngan, F. Durand and W. Matusik, Experimental analysis of BRDF models, EGSR 2005";
+
+/// One lobe about the mirrored direction that is normalised to albedo 1 at normal incidence and scaled by
+/// `specular`, as Ngan et al. write it: k_s (n + 2) / (2 pi) cos^n.
+LafortuneLobe normalisedLobe(const glm::dvec3& specular, double n) {
+    const glm::dvec3 c = glm::pow(specular * (n + 2.0) / (2.0 * glm::pi<double>()), glm::dvec3(1.0 / n));
+    return {-c, -c, c, glm::dvec3(n)};
+}
+
+}  // namespace
 
 const std::vector<LafortuneFit>& lafortuneFits() {
     static const std::vector<LafortuneFit> fits{
         {"bluepaint",
+         kLafortune,
          {0.3094, 0.39667, 0.70837},
          {{{0.870567, 0.857255, 0.670982},
            {0.870567, 0.857255, 0.670982},
@@ -19,6 +41,7 @@ const std::vector<LafortuneFit>& lafortuneFits() {
            {0.706734, 0.69653, 0.687715},
            {66.89906, 63.767912, 57.489181}}}},
         {"brushedmetal",
+         kLafortune,
          {0.0, 0.0, 0.0},
          {{{-1.11854, -1.11845, -1.11999},
            {-1.11854, -1.11845, -1.11999},
@@ -33,6 +56,7 @@ const std::vector<LafortuneFit>& lafortuneFits() {
            {1.00132, 1.00112, 1.00108},
            {180.181, 184.152, 195.773}}}},
         {"skin",
+         kMarschner,
          {0.428425, 0.301341, 0.331054},
          {{{-1.131747, -1.016939, -0.966018},
            {-1.131747, -1.016939, -0.966018},
@@ -47,6 +71,7 @@ const std::vector<LafortuneFit>& lafortuneFits() {
            {0.857998, 0.703913, 0.573625},
            {64.208486, 63.919687, 43.809866}}}},
         {"clay",
+         kLafortune,
          {0.383626, 0.260749, 0.274207},
          {{{-1.089701, -1.102701, -1.107603},
            {-1.089701, -1.102701, -1.107603},
@@ -61,6 +86,7 @@ const std::vector<LafortuneFit>& lafortuneFits() {
            {0.910783, 0.885239, 0.892451},
            {152.912795, 141.937171, 201.046802}}}},
         {"felt",
+         kLafortune,
          {0.025865, 0.025865, 0.025865},
          {{{-0.304075, -0.304075, -0.304075},
            {-0.304075, -0.304075, -0.304075},
@@ -75,6 +101,7 @@ const std::vector<LafortuneFit>& lafortuneFits() {
            {-0.205529, -0.205529, -0.205529},
            {94.117332, 94.117332, 94.117332}}}},
         {"primer",
+         kLafortune,
          {0.11823, 0.121218, 0.133209},
          {{{-0.399286, -1.033473, -1.058104},
            {-0.399286, -1.033473, -1.058104},
@@ -88,6 +115,7 @@ const std::vector<LafortuneFit>& lafortuneFits() {
            {-1.098605, -0.379883, -0.449038},
            {-0.14511, 0.159127, 0.173224},
            {31.899719, 2.372852, 2.636161}}}},
+        {"steel", kNgan, {0.0157, 0.0154, 0.0106}, {normalisedLobe({0.0644, 0.0357, 0.0196}, 10200.0)}},
     };
     return fits;
 }

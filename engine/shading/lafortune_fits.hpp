@@ -14,13 +14,14 @@ struct LafortuneLobe {
 
 struct LafortuneFit {
     std::string name;
+    std::string source;
     glm::dvec3 diffuse;
     std::vector<LafortuneLobe> lobes;
 };
 
 /// Lafortune et al., SIGGRAPH 1997 (blue paint, brushed metal, clay, felt, primer) and Marschner et al., EGSR
-/// 1999 (skin), from coefficient files in circulation; x and y are negative for lobes about the mirrored
-/// direction.
+/// 1999 (skin), from coefficient files in circulation; Ngan et al., EGSR 2005 (steel). x and y are negative
+/// for lobes about the mirrored direction.
 const std::vector<LafortuneFit>& lafortuneFits();
 
 }  // namespace lobe::shading

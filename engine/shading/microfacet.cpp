@@ -15,8 +15,7 @@ std::vector<Parameter> microfacetParameters(std::vector<Parameter> lobe) {
 }
 
 glm::dvec3 microfacetFCos(const Directions& d, std::span<const double> values, double lobe) {
-    const double vh = 0.5 * glm::length(d.h);  // cos of half the angle between unit vectors
-    const glm::dvec3 fresnel = fresnelReflectance(values.last(kFresnelValues), vh);
+    const glm::dvec3 fresnel = fresnelReflectance(values.last(kFresnelValues), d);
     return (rgbAt(values, 0) / glm::pi<double>() + rgbAt(values, 3) * fresnel * lobe) * d.wi.z;
 }
 

@@ -40,6 +40,12 @@ ParameterValues phongFromMetallicRoughness(const MetallicRoughness& surface, dou
     return values;
 }
 
+double cosinePower(double cosine, double sine, double n) {
+    if (n == 0.0) return 1.0;
+    if (cosine <= 0.0) return 0.0;
+    return std::exp(n * (sine < cosine ? 0.5 * std::log1p(-sine * sine) : std::log(cosine)));
+}
+
 double blinnExponent(double roughness) {
     return 2.0 / std::pow(roughness, 4.0) - 2.0;
 }

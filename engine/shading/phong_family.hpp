@@ -19,6 +19,10 @@ glm::dvec3 phongAmbient(std::span<const double> values);
 /// is the base colour; normalization "energy"; `shininess` is clamped to its range.
 ParameterValues phongFromMetallicRoughness(const MetallicRoughness& surface, double shininess);
 
+/// cosine^n, from the sine of its angle where that holds more digits. 0 for cosines that are not positive,
+/// but 1 for n = 0.
+double cosinePower(double cosine, double sine, double n);
+
 /// Blinn exponent n = 2 / m^2 - 2 of the lobe whose slope parameter m is glTF's alpha = roughness^2; infinite
 /// at 0.
 double blinnExponent(double roughness);

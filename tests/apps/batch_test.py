@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import pty
+import struct
 import subprocess
 import unittest
 
@@ -39,6 +40,27 @@ class Batches(LobeTest):
         self.assertIn("bad.gltf", result.stderr)
         self.assertIn("absent.gltf", result.stderr)
         self.assertIn("1 of 3 pictures written, 2 failed", result.stderr)
+
+    def test_a_scene_that_is_not_there_does_not_stop_the_others(self):
+        result = self.lobe("render", "absent.gltf", "quad.gltf", "-r", "32,18", "-o", "{model}.png", expect=3)
+        self.assertIn("quad.png", self.files())
+        self.assertIn("absent.gltf: can't be read (No such file", result.stderr)
+        self.assertIn("1 of 2 pictures written, 1 failed", result.stderr)
+
+    def test_a_scene_may_come_on_standard_input(self):
+        text = pathlib.Path(self.folder, "quad.gltf").read_bytes()
+        json_chunk = text + b" " * (-len(text) % 4)
+        glb = struct.pack("<4sIIII", b"glTF", 2, 20 + len(json_chunk), len(json_chunk), 0x4E4F534A) + json_chunk
+        for scene in (text, glb):
+            done = subprocess.run([LOBE, "render", "-", "-r", "16,16", "-o", "{model}.png", "--no-config"], input=scene,
+                                  cwd=self.folder, capture_output=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("stdin.png", self.files())
+            os.remove(os.path.join(self.folder, "stdin.png"))
+        empty = subprocess.run([LOBE, "render", "-", "-o", "{model}.png"], input=b"", cwd=self.folder, capture_output=True,
+                               timeout=60, check=False)
+        self.assertEqual(empty.returncode, 3)
+        self.assertIn(b"standard input: empty", empty.stderr)
 
     def test_json_has_one_stable_object_a_shot(self):
         result = self.render("--frames=2", "-o", "j{frame}.png", "--json")

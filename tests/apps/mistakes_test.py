@@ -24,7 +24,7 @@ class Mistakes(LobeTest):
             self.assertIn(hint, result.stderr, arguments)
             self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
         self.assertIn("did you mean 'render'", self.lobe("rendr", expect=2).stderr)
-        for arguments in (["render", ""], ["render", "-"], ["plan"], ["plan", self.scene, self.scene], ["info", "extra"],
+        for arguments in (["render", ""], ["plan"], ["plan", self.scene, self.scene], ["info", "extra"],
                           ["render", self.scene, "--json=perhaps"], ["render", self.scene, "--resolution"],
                           ["render", self.scene, "--json", "-o", "-"], ["render", self.scene, self.scene, "-o", "-"],
                           ["render", self.scene, self.scene, "-o", "a.png"],

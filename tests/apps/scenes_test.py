@@ -2,14 +2,34 @@
 """The project's own scenes, the stiff ones among them: no NaN, no infinity, and the same look at every scale."""
 import json
 import pathlib
+import subprocess
+import sys
 import unittest
 
-from lobe_test import LobeTest, png_pixels
+from lobe_test import LobeTest, SHADERS, png_pixels
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 
 
 class Scenes(LobeTest):
+    def test_the_script_writes_the_scenes_that_are_there(self):
+        subprocess.run([sys.executable, "-B", SCENES / "make_scenes.py", self.folder / "made"], check=True, timeout=300)
+        made = sorted(p for p in (self.folder / "made").rglob("*") if p.is_file())
+        self.assertGreater(len(made), 20)
+        for path in made:
+            self.assertEqual(path.read_bytes(), (SCENES / path.relative_to(self.folder / "made")).read_bytes(), path.name)
+
+    def test_there_is_a_sphere_for_every_model_and_a_source_for_every_vase(self):
+        models = json.loads((SCENES / "models.gltf").read_text())
+        drawn = {m["extensions"]["LOBE_materials_brdf"]["model"] for m in models["materials"]}
+        self.assertGreaterEqual(drawn, {p.stem for p in (SHADERS / "brdf").glob("*.glsl")})
+        vases = [m for m in json.loads((SCENES / "vases.gltf").read_text())["materials"] if m["name"] not in ("shelf", "back", "wall")]
+        self.assertEqual(len(vases), 16)
+        table = (SCENES / "README.md").read_text()
+        for vase in vases:
+            self.assertIn(f"| {vase['name']} |", table)
+            self.assertIn(f"| {vase['extras']['source']} |", table)
+
     def test_every_scene_is_finite_under_every_model_and_path(self):
         for options in ([], ["--brdf", "phong"], ["--brdf", "blinn_phong"], ["--brdf", "metallic_roughness"], ["--brdf", "lambert"],
                         ["--shading", "forward"], ["--quality", "converged", "--anti-aliasing", "none"]):

@@ -330,6 +330,51 @@ TEST(Materials, FresnelIsRefusedWithReason) {
         HasSubstr("LOBE_materials_brdf.eta: 1.5; expected one of fresnel"));
 }
 
+TEST(Materials, PresetsAreOverriddenByTheParametersBesideThem) {
+    const Material brass = namedModel({{"model", "ward_anisotropic"}, {"preset", "rolled brass"}});
+    EXPECT_THAT(valueOf(brass, "diffuse"), ElementsAre(0.10, 0.10, 0.10));
+    EXPECT_THAT(valueOf(brass, "specular"), ElementsAre(0.33, 0.33, 0.33));
+    EXPECT_THAT(valueOf(brass, "alphaX"), ElementsAre(0.05));
+    EXPECT_THAT(valueOf(brass, "alphaY"), ElementsAre(0.16));
+    // "alphaX" is read before "preset", which it still replaces.
+    const Material wider = namedModel(
+        {{"model", "ward_anisotropic"}, {"preset", "rolled brass"}, {"alphaX", 0.1}, {"variant", "bounded"}});
+    EXPECT_THAT(valueOf(wider, "alphaX"), ElementsAre(0.1));
+    EXPECT_THAT(valueOf(wider, "alphaY"), ElementsAre(0.16));
+    EXPECT_THAT(valueOf(wider, "variant"), ElementsAre(2));
+
+    const Brdf& lafortune = requireBrdf("lafortune");
+    const Material paint = namedModel({{"model", "lafortune"}, {"preset", "bluepaint"}});
+    EXPECT_THAT(valueOf(paint, "diffuse"), ElementsAre(0.3094, 0.39667, 0.70837));
+    EXPECT_EQ(lafortune.tableOf(paint.values)[0], 3.0);
+    const Material ownLobe = namedModel({{"model", "lafortune"},
+                                         {"preset", "bluepaint"},
+                                         {"lobes", {{{"cx", -1}, {"cy", -1}, {"cz", 1}, {"n", 20}}}}});
+    EXPECT_THAT(valueOf(ownLobe, "diffuse"), ElementsAre(0.3094, 0.39667, 0.70837));
+    EXPECT_EQ(lafortune.tableOf(ownLobe.values)[0], 1.0);
+
+    const Material aluminium =
+        namedModel({{"model", "he"}, {"preset", "rough aluminium"}, {"fresnel", {{"type", "schlick"}}}});
+    EXPECT_THAT(valueOf(aluminium, "tau"), ElementsAre(1.77e-6));
+    EXPECT_THAT(valueOf(aluminium, "fresnel"), ElementsAre(0));
+}
+
+TEST(Materials, UnknownPresetsAreRefusedWithTheList) {
+    const auto refused = [](const json& extension) {
+        return triangle({{"extensions", {{"LOBE_materials_brdf", extension}}}}).refusal();
+    };
+    EXPECT_THAT(
+        refused({{"model", "ward_anisotropic"}, {"preset", "roled brass"}}),
+        AllOf(HasSubstr("LOBE_materials_brdf.preset: \"roled brass\"; expected one of rolled brass, "),
+              HasSubstr("did you mean 'rolled brass'?")));
+    EXPECT_THAT(refused({{"model", "ward_anisotropic"}, {"preset", 3}}),
+                HasSubstr("LOBE_materials_brdf.preset: 3; expected one of"));
+    EXPECT_THAT(refused({{"model", "ward_anisotropic"}, {"presets", "rolled brass"}}),
+                HasSubstr("did you mean 'preset'?"));
+    EXPECT_THAT(refused({{"model", "lambert"}, {"preset", "rolled brass"}}),
+                HasSubstr("LOBE_materials_brdf.preset: \"rolled brass\"; expected one of diffuse"));
+}
+
 TEST(Materials, LafortunesLobes) {
     const Brdf& brdf = requireBrdf("lafortune");
     const Material own = namedModel({{"model", "lafortune"},

@@ -46,6 +46,28 @@ if(NOT EXISTS ${picture})
   message(FATAL_ERROR "no picture at ${picture}:\n${output}")
 endif()
 
+# The example of shader tests: a project without a language, whose tests run on the installed lobe-check.
+set(example ${WORK_DIR}/shader_tests)
+file(COPY ${SOURCE_DIR}/../../docs/examples/shader_tests DESTINATION ${WORK_DIR})
+set(test_example ${CMAKE_CTEST_COMMAND} --test-dir ${example}/build --output-on-failure)
+run(0 ${CMAKE_COMMAND} -S ${example} -B ${example}/build -DCMAKE_PREFIX_PATH=${prefix})
+run(0 ${test_example})
+must_contain("100% tests passed")
+if(NOT EXISTS ${example}/build/colour.auto.xml)
+  message(FATAL_ERROR "no JUnit report:\n${output}")
+endif()
+# Without any backend tests are skipped where that was asked for, and fail where not.
+set(no_backends LOBE_EGL_LIBRARY=/nowhere LOBE_OSMESA_LIBRARY=/nowhere LOBE_GLFW_LIBRARY=/nowhere)
+run(0 ${CMAKE_COMMAND} -E env ${no_backends} ${test_example} -R "colour.(egl|osmesa)")
+must_contain("Skipped")
+run(8 ${CMAKE_COMMAND} -E env ${no_backends} ${test_example} -R colour.auto)
+# A fault is found.
+file(READ ${example}/colour.glsl text)
+string(REPLACE "1.0 / 2.4" "1.0 / 2.41" text "${text}")
+file(WRITE ${example}/colour.glsl "${text}")
+run(8 ${test_example} -R colour.auto)
+must_contain("round_trip")
+
 # With a fault in the prefix's files it must fail: else it read those of the source tree.
 file(GLOB_RECURSE shaders ${prefix}/share/lobe/glsl/*)
 foreach(shader IN LISTS shaders)

@@ -21,14 +21,9 @@ using harness::describe;
 
 class BrdfTwin : public test::OnContext {};
 
-/// Rows a kind. He's twin sums a series for each of some sixty differences a row.
-int rowsOf(const Brdf& brdf, int full) {
-    return test::tableScale(brdf.name == "he" ? full / 8 : full);
-}
-
 TEST_P(BrdfTwin, AgreesWithDirectionsInTheLocalFrame) {
     for (const Brdf& brdf : allBrdfs()) {
-        const std::vector<BrdfRow> rows = harness::brdfRows(brdf, rowsOf(brdf, 4000), 1);
+        const std::vector<BrdfRow> rows = harness::brdfRows(brdf, test::tableScale(4000), 1);
         const auto results = harness::BrdfEvaluator(library(), brdf).evaluate(rows);
         Comparison comparison(brdf, Axes::local);
         bool agrees = true;
@@ -44,7 +39,7 @@ TEST_P(BrdfTwin, AgreesWithDirectionsInTheLocalFrame) {
 /// others, so its rounding turns both directions.
 TEST_P(BrdfTwin, AgreesWithDirectionsInWorldAxes) {
     for (const Brdf& brdf : allBrdfs()) {
-        std::vector<BrdfRow> rows = harness::brdfRows(brdf, rowsOf(brdf, 2000), 2);
+        std::vector<BrdfRow> rows = harness::brdfRows(brdf, test::tableScale(2000), 2);
         std::vector<glm::vec3> normals;
         Pcg32 random(3);
         for (BrdfRow& row : rows) {

@@ -7,37 +7,18 @@
 #include <optional>
 #include <sstream>
 
+#include "albedo.hpp"
 #include "harness/brdf_table.hpp"
-#include "math/quadrature.hpp"
 #include "math/sphere.hpp"
 #include "shading/brdf.hpp"
 
 namespace lobe {
 namespace {
 
+using test::Albedo;
+using test::albedo;
+
 const double kPi = glm::pi<double>();
-
-struct Albedo {
-    double value;
-    double error;  ///< difference from half as many nodes
-};
-
-/// Integral of f_r cos over the light's directions, red channel: polar coordinates about the mirrored
-/// direction, panels graded from a hundredth of the lobe's width.
-Albedo albedo(const Brdf& brdf, const ParameterValues& values, double cosine) {
-    const glm::dvec3 wo(std::sqrt((1.0 - cosine) * (1.0 + cosine)), 0.0, cosine);
-    const glm::dvec3 axis(-wo.x, 0.0, wo.z);
-    const std::vector<double> breaks = gradedBreaks(0.01 / (1.0 + brdf.lobeSharpness(values)), 1.0, 32);
-    const auto integrate = [&](int nodes) {
-        return integrateHemisphere(
-            [&](const glm::dvec3& wi) {
-                return brdf.fCos({wi, wo}, values).r;
-            },
-            axis, breaks, 16, gaussLegendre(nodes));
-    };
-    const double fine = integrate(10);
-    return {fine, std::abs(fine - integrate(5))};
-}
 
 /// Every combination of minimum, middle and maximum, scalars by powers of ten where the range is wide.
 std::vector<ParameterValues> parameterGrid(const Brdf& brdf) {
@@ -47,6 +28,8 @@ std::vector<ParameterValues> parameterGrid(const Brdf& brdf) {
                                   parameter.maximum};
         if (parameter.kind == ParameterKind::table) {
             steps = {0.0};
+        } else if (parameter.minimum < 0.0) {
+            steps = {0.0, 0.8};  // turns the lobe
         } else if (parameter.kind == ParameterKind::choice) {
             steps.clear();
             for (size_t i = 0; i < parameter.choices.size(); ++i)
@@ -128,6 +111,28 @@ TEST(Properties, AlbedoAtMostOneExactlyWhereClaimed) {
             EXPECT_TRUE(albedoAbove(brdf, 1.01)) << brdf.name << " disclaims conservation but has it";
         }
     }
+}
+
+/// The spike and the directional-diffuse part of He's model with a perfect reflector.
+TEST(He, KnownGainOfEnergy) {
+    const Brdf& brdf = requireBrdf("he");
+    const double wavelength = 5e-7;
+    const auto reflected = [&](double sigma, double slope, double cosine) {
+        ParameterValues values{0, 0, 0, sigma * wavelength, 2.0 * sigma * wavelength / slope};
+        values.insert(values.end(), {wavelength, wavelength, wavelength, 0, 1, 1, 1, 1.5, 1.5, 1.5, 0, 0, 0});
+        return albedo(brdf, values, cosine).value + brdf.mirror(cosine, values).r;
+    };
+    EXPECT_NEAR(reflected(0.1, 0.2, 0.3), 1.042, 1e-3);
+    for (double sigma : {0.02, 0.1, 0.5, 2.0}) {
+        EXPECT_LE(reflected(sigma, 0.2, 1.0), 1.0003);
+        for (double cosine : {0.5, 0.2, 0.1})
+            EXPECT_LE(reflected(sigma, 0.2, cosine), 1.043);
+    }
+}
+
+TEST(Lafortune, BrushedMetalGainsEnergy) {
+    const Brdf& brdf = requireBrdf("lafortune");
+    EXPECT_NEAR(albedo(brdf, brdf.findPreset("brushedmetal")->values, 0.1, 2).value, 1.56, 0.01);
 }
 
 ParameterValues phongLobe(double n, double diffuse, double specular, bool energy) {

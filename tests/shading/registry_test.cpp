@@ -9,10 +9,14 @@
 #include <regex>
 #include <set>
 
+#include "albedo.hpp"
 #include "base/error.hpp"
 #include "base/resources.hpp"
 #include "gl/context.hpp"
+#include "harness/comparison.hpp"
 #include "shading/brdf.hpp"
+#include "shading/brdf_file.hpp"
+#include "shading/brdf_header.hpp"
 
 namespace lobe {
 namespace {
@@ -92,6 +96,32 @@ TEST(Registry, EveryEntryIsComplete) {
     }
 }
 
+TEST(Registry, PresetsAreValidAndNameTheirSource) {
+    size_t count = 0;
+    for (const Brdf& brdf : allBrdfs()) {
+        std::set<std::string> names;
+        for (const BrdfPreset& preset : brdf.presets) {
+            SCOPED_TRACE(brdf.name + ": " + preset.name);
+            EXPECT_TRUE(names.insert(preset.name).second);
+            EXPECT_FALSE(preset.source.empty());
+            EXPECT_EQ(layoutError(brdf, preset.values), "");
+            EXPECT_NO_THROW(validateParameters(brdf, preset.values, preset.name));
+            EXPECT_EQ(brdf.findPreset(preset.name), &preset);
+            ++count;
+        }
+        EXPECT_EQ(brdf.findPreset("no such surface"), nullptr);
+    }
+    EXPECT_GE(count, 28U);
+    EXPECT_EQ(requireBrdf("ward_anisotropic").presets.size(), 10U);
+}
+
+TEST(Registry, PresetsOfLafortuneKeepThePublishedAlbedo) {
+    // Ngan et al.: k_d and k_s of a lobe that is normalised at normal incidence.
+    const Brdf& brdf = requireBrdf("lafortune");
+    const ParameterValues& steel = brdf.findPreset("steel")->values;
+    EXPECT_NEAR(test::albedo(brdf, steel, 1.0).value, 0.0157 + 0.0644, 1e-5);
+}
+
 TEST(Registry, ParametersOfTheSceneFormat) {
     const Brdf& phong = requireBrdf("phong");
     EXPECT_EQ(phong.defaults(), (ParameterValues{0, 0, 0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 32, 0}));
@@ -162,6 +192,88 @@ TEST(GlslFiles, HeadersHaveEveryKeyAndTheRegistrysRanges) {
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(LOBE_SOURCE_DIR) / "docs/models" /
                                             (brdf.name + ".md")));
     }
+}
+
+/// One syntax for files that come with Lobe and for those that people load.
+TEST(GlslFiles, HeadersReadAsTheRegistrysParameters) {
+    for (const Brdf& brdf : allBrdfs()) {
+        SCOPED_TRACE(brdf.name);
+        const BrdfHeader header = parseBrdfHeader(glslText(brdf), brdf.name + ".glsl");
+        EXPECT_FALSE(header.title.empty());
+        EXPECT_EQ(header.keys.at("frame").find("x = tangent") != std::string::npos, brdf.traits.usesTangent);
+        ASSERT_EQ(header.parameters.size(), brdf.parameters.size());
+        for (size_t i = 0; i < brdf.parameters.size(); ++i) {
+            const Parameter& declared = header.parameters[i].parameter;
+            const Parameter& registered = brdf.parameters[i];
+            SCOPED_TRACE(registered.glslName);
+            EXPECT_EQ(declared.glslName, registered.glslName);
+            EXPECT_EQ(declared.name, registered.name);
+            EXPECT_EQ(declared.kind, registered.kind);
+            EXPECT_EQ(declared.choices, registered.choices);
+            EXPECT_EQ(declared.unit, registered.unit);
+            EXPECT_EQ(rangeText(declared), rangeText(registered));
+            if (header.parameters[i].hasDefault) {
+                EXPECT_EQ(declared.defaultValue, registered.defaultValue);
+            }
+        }
+    }
+}
+
+TEST(BrdfHeader, ReadsEveryAttribute) {
+    const BrdfHeader header = parseBrdfHeader(
+        "// licence\n"
+        "/// my.glsl - A title. More.\n"
+        "///\n"
+        "/// params base_color  0..1  per channel, no unit, default 1 0.5 0, sRGB, takes base colour: "
+        "colour\n"
+        "///        depth       1e-9..2  m, untextured: depth,\n"
+        "///                             on two lines\n"
+        "///        form  0 first, 1 second_one, default second_one: form\n"
+        "/// sharpness 12.5\n"
+        "/// source A paper,\n"
+        "///        1999\n"
+        "code\n"
+        "/// params no more\n",
+        "my.glsl");
+    EXPECT_EQ(header.title, "A title");
+    EXPECT_EQ(header.keys.at("source"), "A paper, 1999");
+    EXPECT_EQ(header.sharpness, 12.5);
+    ASSERT_EQ(header.parameters.size(), 3u);
+    const Parameter& color = header.parameters[0].parameter;
+    EXPECT_EQ(color.name, "baseColor");
+    EXPECT_EQ(color.kind, ParameterKind::rgb);
+    EXPECT_EQ(color.defaultValue, glm::dvec3(1.0, 0.5, 0.0));
+    EXPECT_TRUE(color.textureIsSrgb && color.mayBeTextured);
+    EXPECT_EQ(header.parameters[0].takes, "base colour");
+    EXPECT_EQ(header.parameters[0].line, 4);
+    const Parameter& depth = header.parameters[1].parameter;
+    EXPECT_EQ(depth.minimum, 1e-9);
+    EXPECT_EQ(depth.defaultValue.x, 0.5);
+    EXPECT_EQ(depth.unit, "m");
+    EXPECT_FALSE(depth.mayBeTextured);
+    EXPECT_EQ(depth.description, "depth, on two lines");
+    const Parameter& form = header.parameters[2].parameter;
+    EXPECT_EQ(form.choices, (std::vector<std::string>{"first", "second_one"}));
+    EXPECT_EQ(form.defaultValue.x, 1.0);
+}
+
+TEST(BrdfFile, HasNoTwinAndSaysSo) {
+    const BrdfSource source{
+        "some/grey.glsl",
+        "/// grey.glsl - Grey.\n/// params level  0..1  no unit: level\n"
+        "struct GreyParams { float level; };\nvec3 grey_f_cos(Dirs d, GreyParams p) { return "
+        "vec3(p.level); }\n"};
+    setLoadedBrdfs({brdfFromSource(source)});
+    const Brdf& grey = requireBrdf("grey");
+    EXPECT_THAT(brdfNames(), testing::Contains("grey"));
+    EXPECT_EQ(allBrdfs().size() + 1, brdfNames().size());
+    EXPECT_THAT(
+        messageOf([&] { requireTwin(grey); }),
+        testing::AllOf(testing::HasSubstr("some/grey.glsl"), testing::HasSubstr("no double-precision twin")));
+    EXPECT_THAT(messageOf([&] { harness::Comparison(grey, harness::Axes::local); }),
+                testing::HasSubstr("no double"));
+    setLoadedBrdfs({});
+    EXPECT_EQ(findBrdf("grey"), nullptr);
 }
 
 TEST(Imitation, GivesValidValuesForEveryGltfSurface) {

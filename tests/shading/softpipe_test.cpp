@@ -50,7 +50,7 @@ TEST(Softpipe, PassesTheSameChecks) {
     } catch (const ContextError& error) {
         GTEST_SKIP() << error.what();
     }
-    EXPECT_EQ(runSelf("BrdfTwin.*/egl:Punctual.*/egl:Octahedral.*/egl:GlslBasics.*/egl",
+    EXPECT_EQ(runSelf("BrdfTwin.*/egl:Punctual.*/egl:Octahedral.*/egl:GlslBasics.*/egl:GlslNumeric.*/egl",
                       {"GALLIUM_DRIVER=softpipe", "LOBE_TEST_RENDERER=softpipe", "LOBE_TEST_DIVISOR=20"}),
               0);
 }

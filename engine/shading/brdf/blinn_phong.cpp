@@ -16,7 +16,8 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     using namespace shading;
     if (!aboveSurface(d)) return glm::dvec3(0.0);
     const PhongValues p = phongValues(values);
-    const double lobe = std::pow(glm::normalize(d.h).z, p.shininess);
+    const glm::dvec3 h = glm::normalize(d.h);
+    const double lobe = cosinePower(h.z, std::hypot(h.x, h.y), p.shininess);
     if (!p.energy) return p.diffuse * d.wi.z + p.specular * lobe;
     return (p.diffuse / glm::pi<double>() + p.specular * (energyConstant(p.shininess) * lobe)) * d.wi.z;
 }

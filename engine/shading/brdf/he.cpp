@@ -4,11 +4,16 @@
 #include <glm/gtc/constants.hpp>
 
 #include "shading/fresnel.hpp"
+#include "shading/he_surfaces.hpp"
+#include "shading/metals.hpp"
 
 namespace lobe::brdf_entry {
 namespace {
 
 const double kPi = glm::pi<double>();
+
+/// Wavelengths of red, green and blue.
+const glm::dvec3 kBands(645e-9, 526e-9, 444e-9);
 
 struct HeValues {
     glm::dvec3 diffuse;
@@ -58,17 +63,42 @@ double effectiveRoughness(double k, double sigma) {
     return sigma / std::sqrt(1.0 + x * x);
 }
 
-/// ln of the series' term at m, without the factor exp(-g): m ln g - ln m! - ln m - q / m.
+/// x - ln(1 + x) for x = (g - m) / m, by its series where x is small.
+double logGap(double m, double g) {
+    const double x = (g - m) / m;
+    if (std::abs(x) > 0.1) return x - std::log(g / m);
+    double power = x * x, sum = 0.0;
+    for (int n = 2; n < 24; ++n, power *= -x)
+        sum += power / n;
+    return sum;
+}
+
+/// ln of the Poisson probability g^m exp(-g) / m!. Where m ln g and ln m! are large and nearly equal, by
+/// their difference: Stirling's series for m! leaves m (x - ln(1 + x)).
+double logPoisson(double m, double g) {
+    if (m < 10.0) return m * std::log(g) - g - std::lgamma(m + 1.0);
+    const double r2 = 1.0 / (m * m);
+    const double stirling =
+        (1.0 / 12.0 - r2 * (1.0 / 360.0 - r2 * (1.0 / 1260.0 - r2 * (1.0 / 1680.0 - r2 / 1188.0)))) / m;
+    return -m * logGap(m, g) - stirling - 0.5 * std::log(2.0 * kPi * m);
+}
+
+/// ln of the series' term at m.
 double logTerm(double m, double g, double q) {
-    return m * std::log(g) - g - std::lgamma(m + 1.0) - std::log(m) - q / m;
+    return logPoisson(m, g) - std::log(m) - q / m;
 }
 
 /// sum over m of g^m exp(-g) / (m! m) exp(-q / m), outwards from the largest term. Where the terms change
 /// slowly, only every n-th is taken, n a third of the peak's width: for a peak this smooth the sum differs
-/// by exp(-2 pi^2 9).
+/// by exp(-2 pi^2 9). Beyond g = 1e14 it is the mean of h(m) = exp(-q / m) / m over a Poisson distribution so
+/// narrow that h(g) + g h''(g) / 2 is left: the next term is (q / g)^4 / (8 g^2), below 1e-17 where exp(-q /
+/// g) is above the least double.
 double series(double g, double q) {
     if (g <= 0.0) return 0.0;
-    if (g > 1e7) return std::exp(-q / g) / g;  // the paper's form for very rough surfaces
+    if (g > 1e14) {
+        const double u = q / g;
+        return std::exp(-u) / g * (1.0 + (0.5 * u * u - 2.0 * u + 1.0) / g);
+    }
     double low = 1e-3, high = std::max(10.0, 2.0 * (g + std::sqrt(q)) + 10.0);
     const auto slope = [&](double m) { return std::log(g / m) + q / (m * m) - 1.5 / m; };
     for (int i = 0; i < 60 && high > (1.0 + 1e-9) * low; ++i) {
@@ -84,7 +114,7 @@ double series(double g, double q) {
         for (double m = direction > 0.0 ? centre : centre - step; m >= 1.0; m += direction) {
             const double term = std::exp(logTerm(m, g, q) - largest);
             sum += term;
-            if (term < 1e-18) break;
+            if (!(term >= 1e-18)) break;
         }
     return sum * step * std::exp(largest);
 }
@@ -97,7 +127,7 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     const double h2 = glm::dot(d.h, d.h);
     const double geometry = (h2 / cosines) * (h2 / cosines);
     const double s = shadowing(d.wi, p) * shadowing(d.wo, p);
-    const glm::dvec3 fresnel = shading::fresnelReflectance(p.fresnel, 0.5 * std::sqrt(h2));
+    const glm::dvec3 fresnel = shading::fresnelReflectance(p.fresnel, d);
     glm::dvec3 f = p.diffuse / kPi;
     for (int c = 0; c < 3; ++c) {
         const double waves = 1.0 / p.wavelength[c];
@@ -137,6 +167,29 @@ Parameter length(std::string name, double defaultValue, double minimum, std::pai
     return parameter;
 }
 
+std::vector<BrdfPreset> presets() {
+    using shading::FresnelType;
+    std::vector<BrdfPreset> presets;
+    for (const shading::HeSurface& surface : shading::heSurfaces()) {
+        ParameterValues values{0.0, 0.0, 0.0, surface.sigma, surface.tau};
+        const auto append = [&](const glm::dvec3& rgb) {
+            values.insert(values.end(), {rgb.r, rgb.g, rgb.b});
+        };
+        append(surface.wavelength > 0.0 ? glm::dvec3(surface.wavelength) : kBands);
+        const auto& metals = shading::metals();
+        const auto metal = std::find_if(metals.begin(), metals.end(), [&](const shading::Metal& known) {
+            return known.name == surface.metal;
+        });
+        const bool conductor = metal != metals.end();
+        values.push_back(static_cast<double>(conductor ? FresnelType::conductor : FresnelType::dielectric));
+        append(glm::dvec3(shading::kDielectricF0));
+        append(conductor ? metal->eta : glm::dvec3(surface.eta));
+        append(conductor ? metal->k : glm::dvec3(0.0));
+        presets.push_back({surface.name, surface.source, std::move(values)});
+    }
+    return presets;
+}
+
 }  // namespace
 
 Brdf he() {
@@ -147,7 +200,7 @@ Brdf he() {
     brdf.source = "X. D. He et al., A comprehensive physical model for light reflection, SIGGRAPH 1991";
     Parameter wavelength = length("wavelength", 0.0, 1e-9, {4e-7, 7e-7}, "of the red, green and blue band");
     wavelength.kind = ParameterKind::rgb;
-    wavelength.defaultValue = {645e-9, 526e-9, 444e-9};
+    wavelength.defaultValue = kBands;
     wavelength.mayBeTextured = false;
     brdf.parameters = {colorParameter("diffuse", glm::dvec3(0.0), "a: uniform-diffuse reflectance"),
                        length("sigma", 2e-7, 0.0, {1e-8, 2e-6}, "RMS height of the surface"),
@@ -155,6 +208,7 @@ Brdf he() {
                        wavelength};
     for (Parameter& parameter : fresnelParameters())
         brdf.parameters.push_back(std::move(parameter));
+    brdf.presets = presets();
     // 4 % over at some angles even without the uniform-diffuse part, which nothing bounds.
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "diffuse";
@@ -170,7 +224,7 @@ Brdf he() {
         const double sigma = 1e-6;
         const double slope = std::max(surface.roughness * surface.roughness, 1e-3);
         ParameterValues values{diffuse.r,           diffuse.g, diffuse.b, sigma,
-                               2.0 * sigma / slope, 645e-9,    526e-9,    444e-9};
+                               2.0 * sigma / slope, kBands.r,  kBands.g,  kBands.b};
         const std::vector<double> fresnel = fresnelFromMetallicRoughness(surface);
         values.insert(values.end(), fresnel.begin(), fresnel.end());
         return values;

@@ -120,17 +120,22 @@ Brdf lafortune() {
         std::vector<std::pair<std::string, TableRows>> examples;
         for (const LafortuneFit& fit : lafortuneFits())
             examples.emplace_back(fit.name, rowsOf(fit.lobes));
-        // Anisotropic, and as sharp as the steel that Ngan et al. (EGSR 2005) fitted.
+        // Anisotropic.
         examples.emplace_back("anisotropic",
                               rowsOf({{glm::dvec3(-1.0, -0.9, -0.5), glm::dvec3(-0.8, 0.9, -1.0),
                                        glm::dvec3(1.0, 0.95, 0.7), glm::dvec3(30.0, 8.0, 0.5)}}));
-        examples.emplace_back(
-            "steel", rowsOf({{glm::dvec3(-1.0), glm::dvec3(-1.0), glm::dvec3(1.0), glm::dvec3(10200.0)}}));
         return examples;
     };
     brdf.table = std::move(format);
+    for (const LafortuneFit& fit : lafortuneFits()) {
+        ParameterValues values{fit.diffuse.r, fit.diffuse.g, fit.diffuse.b, 0.0};
+        const TableRows rows = rowsOf(fit.lobes);
+        values.insert(values.end(), rows.begin(), rows.end());
+        brdf.presets.push_back({fit.name, fit.source, std::move(values)});
+    }
     // Fits are made to measurements, not to a bound: brushed metal reaches albedo 1.56.
     brdf.traits.energyConserving = false;
+    brdf.traits.halfVectorLobe = false;
     brdf.traits.anglesOnly = false;
     brdf.traits.usesTangent = true;
     brdf.baseColorParameter = "diffuse";

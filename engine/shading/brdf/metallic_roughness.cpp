@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "shading/parameters.hpp"
+#include "shading/fresnel.hpp"
 
 namespace lobe::brdf_entry {
 namespace {
@@ -38,7 +38,7 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     const double alpha = alphaOf(values[4]);
 
     const glm::dvec3 h = glm::normalize(d.h);
-    const double schlick = std::pow(std::max(1.0 - std::abs(glm::dot(d.wo, h)), 0.0), 5.0);
+    const double schlick = std::pow(oneMinusCosThetaD(d), 5.0);
     const glm::dvec3 f0 = glm::mix(glm::dvec3(kDielectricF0), baseColor, metallic);
     const glm::dvec3 fresnel = f0 + (1.0 - f0) * schlick;
 

@@ -15,7 +15,8 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     const double pi = glm::pi<double>();
     const glm::dvec3 normal(0.0, 0.0, 1.0);
     const glm::dvec3 mirrored = 2.0 * d.wi.z * normal - d.wi;
-    const double lobe = std::pow(std::max(glm::dot(mirrored, d.wo), 0.0), p.shininess);
+    const double lobe =
+        cosinePower(glm::dot(mirrored, d.wo), glm::length(glm::cross(mirrored, d.wo)), p.shininess);
     if (!p.energy) return p.diffuse * d.wi.z + p.specular * lobe;
     return (p.diffuse / pi + p.specular * ((p.shininess + 2.0) / (2.0 * pi) * lobe)) * d.wi.z;
 }
@@ -36,6 +37,7 @@ Brdf phong() {
     // "classic" is neither; "energy" is reciprocal, and conserving where diffuse + specular <= 1.
     brdf.traits.reciprocal = false;
     brdf.traits.energyConserving = false;
+    brdf.traits.halfVectorLobe = false;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
     brdf.ambient = phongAmbient;

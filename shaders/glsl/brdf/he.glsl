@@ -98,7 +98,8 @@ float he_series(float factor, float t, float root_g, float q)
         float difference = (g - centre) - (m - centre);
         sum += numeric_exp(largest - he_exponent(m, g, difference, q)) / (m * sqrt(m));
     }
-    float root = t * numeric_exp(-0.5 * largest);
+    // exp(-largest), where it is the first term without the logarithm of a small g; 1.58 is (2 pi)^(1/4)
+    float root = centre < 1.5 ? 1.58323349 * t * root_g * numeric_exp(-0.5 * (g + q)) : t * numeric_exp(-0.5 * largest);
     return root > 0.0 ? root * (root * (factor * (sum * step_ * 0.398942280))) : 0.0;  // 1 / sqrt(2 pi)
 }
 

@@ -28,7 +28,8 @@ float phong_lobe(Dirs d, float n)
     float r_dot_v = d.wi.z * d.wo.z - dot(d.wi.xy, d.wo.xy);
     float dz = d.wi.z - d.wo.z;
     float deficit = 0.5 * (dot(d.h.xy, d.h.xy) + dz * dz);
-    float log_base = deficit < 0.3 ? numeric_log1p(-deficit) : numeric_log(max(r_dot_v, 1e-37));
+    float near = numeric_two_atanh(-deficit / (2.0 - deficit));  // log1p(-deficit)
+    float log_base = deficit < 0.3 ? near : numeric_log(max(r_dot_v, 1e-37));
     float power = r_dot_v > 0.0 ? numeric_exp(n * log_base) : 0.0;
     return n > 0.0 ? power : 1.0;
 }

@@ -8,7 +8,9 @@
 ///        smaller by division; a - c through (eta - 1)(eta + 1), which keeps indices near 1
 /// error  relative, 8 x 2^-24 (1 + c) with c the condition number with respect to index and angle; condition of eta
 ///        near 1: 4 eta / (eta^2 - 1)
+/// bands  where FRESNEL_BANDS is defined, type 3 is exact in bands of wavelength whose rows start at k.x of the table
 /// twin   engine/shading/fresnel.cpp
+#include "common/table.glsl"
 
 const int FRESNEL_SCHLICK = 0;
 const int FRESNEL_DIELECTRIC = 1;
@@ -52,10 +54,33 @@ vec3 fresnel_exact(vec3 eta, vec3 k, float c, float s2)
     return 0.5 * rs * (1.0 + rp);
 }
 
+#ifdef FRESNEL_BANDS
+const int FRESNEL_BANDED = 3;
+
+/// Linear sRGB from three bands at a time: the number of groups in x of the first row; then, a group, a row of eta, a row
+/// of k and each band's weight. Weights add up to 1, so what is lost is subtracted from 1: a perfect reflector is exactly
+/// white. Colours beyond sRGB's gamut could be negative and are 0 there.
+vec3 fresnel_bands(int row, float c, float s2)
+{
+    int groups = int(table_row(row).x);
+    vec3 lost = vec3(0.0);
+    for (int i = 0; i < groups; ++i) {
+        int first = row + 1 + 5 * i;
+        vec3 part = 1.0 - fresnel_exact(table_row(first).xyz, table_row(first + 1).xyz, c, s2);
+        lost += part.x * table_row(first + 2).xyz + part.y * table_row(first + 3).xyz + part.z * table_row(first + 4).xyz;
+    }
+    return max(1.0 - lost, 0.0);
+}
+#endif
+
 vec3 fresnel_reflectance(int type, vec3 f0, vec3 eta, vec3 k, float c, float s2)
 {
     if (type == FRESNEL_SCHLICK)
         return fresnel_schlick(f0, c, s2);
+#ifdef FRESNEL_BANDS
+    if (type == FRESNEL_BANDED)
+        return fresnel_bands(int(k.x), c, s2);
+#endif
     return fresnel_exact(eta, type == FRESNEL_CONDUCTOR ? k : vec3(0.0), c, s2);
 }
 

@@ -1,4 +1,4 @@
-#include "import/content_hash.hpp"
+#include "base/content_hash.hpp"
 
 #include <bit>
 #include <cstdio>

@@ -1,0 +1,115 @@
+// Parameters of models, set for a whole scene.
+#include <algorithm>
+
+#include "base/closest_name.hpp"
+#include "base/error.hpp"
+#include "plan/summary.hpp"
+#include "shading/metals.hpp"
+
+namespace lobe {
+namespace {
+
+constexpr const char* kMetal = "metal";
+
+int indexOf(const Brdf& brdf, const std::string& name) {
+    const auto found =
+        std::find_if(brdf.parameters.begin(), brdf.parameters.end(), [&](const Parameter& parameter) {
+            return parameter.kind != ParameterKind::table &&
+                   (parameter.name == name || parameter.glslName == name);
+        });
+    return found == brdf.parameters.end() ? -1 : static_cast<int>(found - brdf.parameters.begin());
+}
+
+[[noreturn]] void refuse(const ParameterOverride& change, const std::string& expected) {
+    throw UsageError("brdf_set: " + change.name + " '" + change.text + "'; expected " + expected);
+}
+
+std::vector<double> valuesFor(const Parameter& parameter, const ParameterOverride& change) {
+    if (parameter.kind == ParameterKind::choice) {
+        const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), change.text);
+        if (found != parameter.choices.end()) return {static_cast<double>(found - parameter.choices.begin())};
+        std::string names;
+        for (const std::string& choice : parameter.choices)
+            names += (names.empty() ? "" : ", ") + choice;
+        refuse(change, "one of " + names + didYouMean(change.text, parameter.choices));
+    }
+    const auto components = static_cast<size_t>(parameter.components());
+    if (change.numbers.size() == components) return change.numbers;
+    if (change.numbers.size() == 1) return std::vector<double>(components, change.numbers[0]);
+    refuse(change, components == 3 ? "a number, or three for red, green and blue" : "a number");
+}
+
+void assign(Material& material, const Brdf& brdf, int index, const std::vector<double>& values) {
+    std::copy(values.begin(), values.end(), material.values.begin() + brdf.valueOffset(index));
+    // The value is meant as it is; a texture would multiply it.
+    material.textures[static_cast<size_t>(index)] = {};
+}
+
+/// Optical constants by name, for models with Fresnel's equations. False for others.
+bool assignMetal(Material& material, const Brdf& brdf, const ParameterOverride& change) {
+    const int type = brdf.parameterIndex("fresnel");
+    const int eta = brdf.parameterIndex("eta");
+    const int k = brdf.parameterIndex("k");
+    if (type < 0 || eta < 0 || k < 0 || brdf.parameters[static_cast<size_t>(type)].group != "fresnel")
+        return false;
+    std::vector<std::string> names;
+    for (const shading::Metal& metal : shading::metals()) {
+        names.push_back(metal.name);
+        if (metal.name != change.text) continue;
+        const auto& choices = brdf.parameters[static_cast<size_t>(type)].choices;
+        const auto conductor = std::find(choices.begin(), choices.end(), "conductor") - choices.begin();
+        assign(material, brdf, type, {static_cast<double>(conductor)});
+        assign(material, brdf, eta, {metal.eta.r, metal.eta.g, metal.eta.b});
+        assign(material, brdf, k, {metal.k.r, metal.k.g, metal.k.b});
+        return true;
+    }
+    std::string all;
+    for (const std::string& name : names)
+        all += (all.empty() ? "" : ", ") + name;
+    refuse(change, "one of " + all + didYouMean(change.text, names));
+}
+
+void refuseUnknown(const Scene& scene, const ParameterOverride& change) {
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials)
+        if (material.brdf != kUnlit)
+            for (const Parameter& parameter : requireBrdf(material.brdf).parameters)
+                if (parameter.kind != ParameterKind::table &&
+                    std::find(names.begin(), names.end(), parameter.name) == names.end())
+                    names.push_back(parameter.name);
+    std::string all;
+    for (const std::string& name : names)
+        all += (all.empty() ? "" : ", ") + name;
+    throw UsageError("brdf_set: " + change.name + ": no model that " + scene.file +
+                     " is drawn with has this parameter; expected one of " + all +
+                     didYouMean(change.name, names));
+}
+
+}  // namespace
+
+Scene withParameters(const Scene& scene, const std::vector<ParameterOverride>& changes) {
+    Scene result = scene;
+    for (const ParameterOverride& change : changes) {
+        bool used = false;
+        for (Material& material : result.materials) {
+            if (material.brdf == kUnlit) continue;
+            const Brdf& brdf = requireBrdf(material.brdf);
+            const int index = indexOf(brdf, change.name);
+            if (index < 0) {
+                used |= change.name == kMetal && assignMetal(material, brdf, change);
+                continue;
+            }
+            used = true;
+            assign(material, brdf, index, valuesFor(brdf.parameters[static_cast<size_t>(index)], change));
+            try {
+                validateParameters(brdf, material.values, "brdf_set");
+            } catch (const InputError& error) {
+                throw UsageError(error.what());
+            }
+        }
+        if (!used) refuseUnknown(scene, change);
+    }
+    return result;
+}
+
+}  // namespace lobe
