@@ -57,7 +57,7 @@ Drawing draw(const Surface& surface) {
     std::string& text = drawing.commands;
     text = dataBlock("surface", lines) +
            "set lmargin at screen 0.05\nset rmargin at screen 0.84\n"
-           "set bmargin at screen bottom + 24 * pixel\nset tmargin at screen top\n"
+           "set bmargin at screen bottom + 44 * pixel\nset tmargin at screen top\n"
            "set view 62,35,1.02\nset view equal xyz\nset xyplane at 0\nunset key\nset border 31\n"
            "R = " +
            numberText(reach) + "\nset xrange [-R:R]\nset yrange [-R:R]\nset zrange [0:R]\nset tics " +

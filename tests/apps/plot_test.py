@@ -127,7 +127,7 @@ class Plot(LobeTest):
                                 (["lobes", "--brdf", "phong", "--backend", "vulkan", *out], "expected auto, egl"),
                                 (["lobes", "--brdf", "phong", "--twin", "--backend", "egl", *out], "--backend"),
                                 (["table", "--brdf", "lambert", *out], "expected one of"),
-                                (["albedo", "--brdf", "phong", "--over", "shine", *out], "did you mean 'shininess'"),
+                                (["albedo", "--brdf", "phong", "--over", "shinines", *out], "did you mean 'shininess'"),
                                 (["albedo", "--brdf", "phong", "--over", "diffuse", *out], "single number"),
                                 (["albedo", "--brdf", "phong", "--range", "5,1", *out], "LOW,HIGH"),
                                 (["albedo", "--brdf", "phong", "--range=-5,1", *out], "expected 0.."),
