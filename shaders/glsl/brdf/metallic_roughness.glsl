@@ -10,7 +10,7 @@
 /// source Khronos, glTF 2.0 specification, appendix B.3; Walter et al., EGSR 2007; Heitz, JCGT 3(2), 2014
 /// stable sin^2 and cos^2 of the half angle from h's components, never 1 - (n.h)^2; 1 - v.h from |wi - wo|;
 ///        1 - F as a product without cancellation; cos(theta_i) divided out of the visibility term
-/// error  relative, at most 4 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
+/// error  relative, at most 5 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
 ///        Where both cosines > 0.01 and f > 1e-6: < 4.2e-6 for alpha > 0.07, 6e-5 > 7e-3, 7e-4 > 7e-4, 3e-2
 /// twin   engine/shading/brdf/metallic_roughness.cpp
 #include "common/constants.glsl"
