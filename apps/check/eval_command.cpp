@@ -1,6 +1,7 @@
 // lobe-check eval: a GLSL function, a registered model or its twin over a CSV table.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "base/atomic_file.hpp"
@@ -68,8 +69,13 @@ std::unique_ptr<TableEvaluation> evaluationFor(const EvalOptions& options, const
 }
 
 void evaluate(const EvalOptions& options, CsvReader& reader, Spool& spool) {
-    Watchdog watchdog(options.model.empty() ? options.file + ": " + options.function : options.model,
-                      options.timeLimit);
+    Watchdog watchdog(options.timeLimit, [&] {  // nothing has been written by then
+        const std::string what =
+            options.model.empty() ? options.file + ": " + options.function : options.model;
+        std::fprintf(stderr, "lobe-check: error: %s: no result after %g s (--time-limit); an endless loop?\n",
+                     what.c_str(), options.timeLimit);
+        std::_Exit(static_cast<int>(ExitCode::checkFailed));
+    });
     watchdog.start();  // compilers loop too
     const std::unique_ptr<TableEvaluation> evaluation = evaluationFor(options, reader);
     watchdog.stop();

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <future>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "bounded_queue.hpp"
@@ -13,6 +16,7 @@
 #include "scene_cache.hpp"
 #include "shot_scene.hpp"
 #include "stage.hpp"
+#include "watchdog.hpp"
 
 namespace lobe::app {
 namespace {
@@ -148,6 +152,18 @@ void encode(Job& job, ImageFiles& files) {
     job.image = {};
 }
 
+/// What becomes of a shot whose drawing did not end.
+Outcome overdue(const Shot& shot, double seconds) {
+    Outcome outcome;
+    outcome.shot = shot;
+    outcome.error = ExitCode::shader;
+    std::ostringstream message;
+    message << shot.output << ": not drawn after " << seconds << " s (--time-limit); an endless loop in "
+            << shot.settings->get("brdf_file").dump() << "?";
+    outcome.message = message.str();
+    return outcome;
+}
+
 /// How many pictures may wait to be encoded: few, and fewer of the large ones.
 size_t picturesInFlight(const std::vector<Shot>& shots) {
     constexpr size_t kBudget = size_t{1} << 30;
@@ -220,8 +236,24 @@ void runShots(const std::vector<Shot>& shots, const PipelineOptions& options, Re
     contextPromise.set_value(context->info());
     {
         Drawer drawer(*context, options.timePasses);
+        std::pair<size_t, Shot> drawing;  // read by the watchdog while a picture is drawn
+        std::optional<Watchdog> watchdog;
+        if (options.drawLimit)
+            watchdog.emplace(*options.drawLimit, [&] {
+                drawn.close();
+                for (Stage& stage : encoding)
+                    stage.finish();
+                Outcome outcome = overdue(drawing.second, *options.drawLimit);
+                outcomes.add(drawing.first, std::move(outcome));
+                const ExitCode code = reporter.finish(true);
+                std::fflush(nullptr);
+                std::_Exit(static_cast<int>(code));
+            });
         while (auto job = loaded.pop()) {
+            drawing = {job->number, job->outcome.shot};
+            if (watchdog) watchdog->start();
             drawer.draw(*job);
+            if (watchdog) watchdog->stop();
             if (!drawn.push(std::move(*job)) || interrupted) break;
         }
     }

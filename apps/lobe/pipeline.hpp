@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "gl/context.hpp"
@@ -17,6 +18,9 @@ struct PipelineOptions {
     gl::ContextRequest context;
     bool resume = false;  ///< leave out pictures that are there and were made the same way
     bool timePasses = false;
+    /// Seconds that drawing one picture may take. Once they are over the pictures drawn before are written,
+    /// and the program ends, with exit code 5 and the summary: a driver that loops can't be stopped.
+    std::optional<double> drawLimit;
     const nlohmann::json* reproduced = nullptr;  ///< record that the picture should have again
 };
 

@@ -28,6 +28,7 @@ void interrupt(int) {
 struct RenderArguments {
     std::vector<std::string> inputs;
     std::string batch, shardText, filter, reproduce;
+    double timeLimit = 600.0;
     bool headless = false, resume = false, json = false, list = false, quiet = false, verbose = false;
 };
 
@@ -42,6 +43,10 @@ void addOptions(CLI::App& app, RenderArguments& r) {
                    "render a picture again from what is written in it; a SCENE given beside it takes the "
                    "place of its own")
         ->type_name("PICTURE");
+    app.add_option("--time-limit", r.timeLimit,
+                   "with --brdf-file: how long drawing one picture may take before an endless loop is "
+                   "assumed [600], s")
+        ->type_name("S");
     const auto addFlag = [&](const std::string& names, bool& value, const std::string& help) {
         const std::string name = names.substr(names.rfind("--") + 2);
         app.add_flag(names + ",!--no-" + name, value, help);
@@ -123,6 +128,7 @@ int renderCommand(const std::vector<std::string>& list) {
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;
 
+    if (!(r.timeLimit > 0.0)) throw UsageError("--time-limit: expected more than 0 seconds");
     nlohmann::json record;  // of the picture to reproduce
     if (!r.reproduce.empty()) record = recordIn(ImageFiles().readMetadata(r.reproduce), r.reproduce);
     std::vector<Shot> shots = shotsIn(r, record, arguments.sources());
@@ -151,6 +157,9 @@ int renderCommand(const std::vector<std::string>& list) {
     options.context = contextOf(shots);
     options.resume = r.resume;
     options.timePasses = r.json || r.verbose;
+    forEachSettings(shots, [&](const Shot& shot) {
+        if (!shot.settings->get("brdf_file").is_null()) options.drawLimit = r.timeLimit;
+    });
     if (!record.is_null()) options.reproduced = &record;
     Reporter reporter(shots.size(), r.json,
                       r.quiet     ? Verbosity::quiet

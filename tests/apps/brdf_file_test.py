@@ -189,6 +189,19 @@ class BrdfFile(LobeTest):
         self.write("flat_grey.glsl", MINIMAL.replace("p.level * d.wi.z", "uintBitsToFloat(0x7fc00000u)"))
         self.assertIn("NaN or infinite", self.draw("--brdf-file", "flat_grey.glsl", expect=6).stderr)
 
+    def test_an_endless_loop_ends_and_loses_nothing_that_was_drawn(self):
+        self.write("flat_grey.glsl", MINIMAL.replace("struct", "float waited(float x) { float y = 0.0; while (x > 0.5 && y < 2.0) "
+                                                     "y = min(y + 1.0, 1.0); return y; }\nstruct").replace("p.level * d", "(p.level + waited(p.level)) * d"))
+        self.write("jobs.json", {"shots": [{"scene": "quad.gltf", "resolution": [16, 16], "brdf_file": "flat_grey.glsl",
+                                            "brdf_set": f"level={level}", "output": f"{i}.png"} for i, level in enumerate((0.25, 1, 0.25))]})
+        # softpipe, unlike llvmpipe, has no limit of its own.
+        result = self.lobe("render", "--batch", "jobs.json", "--time-limit", 3, expect=5, env={"GALLIUM_DRIVER": "softpipe"})
+        self.assertIn("1.png: not drawn after 3 s (--time-limit); an endless loop in ", result.stderr)
+        self.assertIn("1 of 3 pictures written, 1 failed, interrupted with 1 to go", result.stderr)
+        self.assertIn("0.png", self.files())
+        self.assertFalse([f for f in self.files() if f.startswith(".") or "tmp" in f], self.files())
+        self.assertIn("--time-limit", self.draw("--time-limit=0", expect=2).stderr)
+
     def test_values_for_the_whole_scene(self):
         half = ("--brdf-set", "diffuse=0.5", "--brdf", "lambert")
         self.draw(*half)

@@ -3,23 +3,20 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
+#include <functional>
 #include <mutex>
-#include <string>
 #include <thread>
-
-#include "base/error.hpp"
 
 namespace lobe::app {
 
-/// Ends the program when the driver has been at one batch of rows for too long: GLSL can loop forever, and
-/// OpenGL has no way to stop it. Nothing has been written by then.
+/// Tells when the driver has been at one piece of work for too long: GLSL can loop forever, and OpenGL has no
+/// way to stop it.
 class Watchdog {
 public:
-    /// `what` is for the message, the limit in seconds.
-    Watchdog(std::string what, double limit)
-        : what_(std::move(what)), limit_(limit), thread_([this] { watch(); }) {}
+    /// `overdue` runs on a thread of its own once `limit` seconds have passed after start() without stop().
+    /// The thread that waits for the driver never comes back, so it has to end the program.
+    Watchdog(double limit, std::function<void()> overdue)
+        : limit_(limit), overdue_(std::move(overdue)), thread_([this] { watch(); }) {}
     ~Watchdog() {
         {
             const std::lock_guard lock(mutex_);
@@ -54,15 +51,15 @@ private:
             const uint64_t turn = turn_;
             const auto moved = [&] { return ended_ || turn_ != turn; };
             if (changed_.wait_for(lock, std::chrono::duration<double>(limit_), moved)) continue;
-            std::fprintf(stderr,
-                         "lobe-check: error: %s: no result after %g s (--time-limit); an endless loop?\n",
-                         what_.c_str(), limit_);
-            std::_Exit(static_cast<int>(ExitCode::checkFailed));
+            lock.unlock();
+            overdue_();
+            lock.lock();
+            running_ = false;
         }
     }
 
-    std::string what_;
     double limit_;
+    std::function<void()> overdue_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool running_ = false, ended_ = false;
