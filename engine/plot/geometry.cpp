@@ -24,6 +24,7 @@ glm::dvec3 mirrored(const glm::dvec3& w) {
 std::vector<double> linearSteps(double first, double last, int count) {
     assert(count >= 2);
     std::vector<double> steps;
+    steps.reserve(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i)
         steps.push_back(first + (last - first) * i / (count - 1));
     return steps;
@@ -32,6 +33,7 @@ std::vector<double> linearSteps(double first, double last, int count) {
 std::vector<double> geometricSteps(double first, double last, int count) {
     assert(count >= 2 && first > 0.0 && last > 0.0);
     std::vector<double> steps;
+    steps.reserve(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i)
         steps.push_back(first * std::pow(last / first, double(i) / (count - 1)));
     steps.back() = last;

@@ -83,6 +83,7 @@ pid_t start(const Stream& in, const Stream& out, const Stream& complaints) {
     std::array<char*, 3> argv{arguments[0].data(), arguments[1].data(), nullptr};
     std::vector<std::string> variables = environment();
     std::vector<char*> envp;
+    envp.reserve(variables.size() + 1);
     for (std::string& variable : variables)
         envp.push_back(variable.data());
     envp.push_back(nullptr);

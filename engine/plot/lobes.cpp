@@ -60,6 +60,14 @@ double asQuantity(Quantity quantity, double fCos, const Pair& pair) {
     return fCos;
 }
 
+std::vector<Pair> pairsAt(const glm::dvec3& wi, const std::vector<double>& angles, double azimuth) {
+    std::vector<Pair> pairs;
+    pairs.reserve(angles.size());
+    for (double angle : angles)
+        pairs.push_back({wi, toEye(angle, azimuth)});
+    return pairs;
+}
+
 std::vector<LobePoint> sampleLobe(
     double mirrorAngle, const std::function<std::vector<double>(const std::vector<double>& angles)>& values) {
     std::vector<LobePoint> points;
@@ -84,9 +92,7 @@ Lobes computeLobes(const Sampler& sampler, const LobesRequest& request) {
             const Model& model = request.models[m];
             const glm::dvec3 wi = toLight(incidence, request.azimuth);
             const auto values = [&](const std::vector<double>& angles) {
-                std::vector<Pair> pairs;
-                for (double angle : angles)
-                    pairs.push_back({wi, toEye(angle, request.azimuth)});
+                const std::vector<Pair> pairs = pairsAt(wi, angles, request.azimuth);
                 const std::vector<Sample> samples = sampler.sample(model, pairs);
                 std::vector<double> found;
                 for (size_t i = 0; i < pairs.size(); ++i)

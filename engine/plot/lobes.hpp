@@ -43,6 +43,9 @@ struct Lobes {
 /// Sampled every half degree, and finer until neighbours differ by less than 1 % of the lobe's peak.
 Lobes computeLobes(const Sampler& sampler, const LobesRequest& request);
 
+/// Light along `wi` seen at each of the angles, in the plane of incidence.
+std::vector<Pair> pairsAt(const glm::dvec3& wi, const std::vector<double>& angles, double azimuth);
+
 /// The lobe of any value that is a function of the eye's angle, sampled in the same way.
 std::vector<LobePoint> sampleLobe(
     double mirrorAngle, const std::function<std::vector<double>(const std::vector<double>& angles)>& values);

@@ -37,7 +37,8 @@ Drawing draw(const Slice& slice) {
     const int n = request.cells;
     for (int y = 0; y < n * kRepeat; ++y)
         for (int x = 0; x < n * kRepeat; ++x) {
-            const SliceCell& cell = slice.cells[static_cast<size_t>(y / kRepeat * n + x / kRepeat)];
+            const SliceCell& cell = slice.cells[static_cast<size_t>(y / kRepeat) * static_cast<size_t>(n) +
+                                                static_cast<size_t>(x / kRepeat)];
             const double step = 90.0 / (n * kRepeat);
             lines.push_back(numberText((x + 0.5) * step) + " " + numberText((y + 0.5) * step) + " " +
                             std::to_string(cell.tone[0]) + " " + std::to_string(cell.tone[1]) + " " +

@@ -73,24 +73,18 @@ Terms computeTerms(const Sampler& sampler, const TermsRequest& request) {
     for (double incidence : request.incidences) {
         requireIncidence(incidence);
         const glm::dvec3 wi = toLight(incidence, request.azimuth);
-        const auto pairsOf = [&](const std::vector<double>& angles) {
-            std::vector<Pair> pairs;
-            for (double angle : angles)
-                pairs.push_back({wi, toEye(angle, request.azimuth)});
-            return pairs;
-        };
         TermsRow row{incidence, {}};
         const Pair normal{wi, wi};
         const double ambient =
             request.ambientRadiance *
             channelOf(sampler.sample(model, std::span(&normal, 1)).front().ambient, request.channel);
         row.cells[3] = sampleLobe(incidence, [&](const std::vector<double>& angles) {
-            return valuesOf(sampler, model, pairsOf(angles), request.channel);
+            return valuesOf(sampler, model, pairsAt(wi, angles, request.azimuth), request.channel);
         });
         std::vector<double> angles;
         for (const LobePoint& point : row.cells[3])
             angles.push_back(point.angle);
-        const Parts parts = partsOf(sampler, model, pairsOf(angles), request.channel);
+        const Parts parts = partsOf(sampler, model, pairsAt(wi, angles, request.azimuth), request.channel);
         for (size_t i = 0; i < angles.size(); ++i) {
             row.cells[0].push_back({angles[i], ambient});
             row.cells[1].push_back({angles[i], parts.diffuse[i]});
