@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/byte_order_mark.hpp"
 #include "base/error.hpp"
 #include "gl/program.hpp"
 
@@ -163,7 +164,7 @@ private:
         if (!stream) return {};
         std::ostringstream text;
         text << stream.rdbuf();
-        return text.str();
+        return withoutByteOrderMark(text.str());
     }
 
     /// The name in `#include "NAME"`.

@@ -4,6 +4,7 @@
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
 #include "plan/summary.hpp"
+#include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 
 namespace lobe {
@@ -69,6 +70,25 @@ bool assignMetal(Material& material, const Brdf& brdf, const ParameterOverride& 
     refuse(change, "one of " + all + didYouMean(change.text, names));
 }
 
+bool hasFresnel(const Brdf& brdf) {
+    const int type = brdf.parameterIndex("fresnel");
+    return type >= 0 && brdf.parameters[static_cast<size_t>(type)].group == "fresnel";
+}
+
+/// The equations that read what was set.
+void useFresnel(Material& material, const Brdf& brdf, const std::vector<ParameterOverride>& changes) {
+    if (!hasFresnel(brdf)) return;
+    std::vector<std::string> named;
+    std::string choice;
+    for (const ParameterOverride& change : changes) {
+        named.push_back(change.name);
+        if (change.name == "fresnel") choice = change.text;
+    }
+    double& type = material.values[static_cast<size_t>(brdf.valueOffset(brdf.parameterIndex("fresnel")))];
+    const auto present = static_cast<shading::FresnelType>(static_cast<int>(type));
+    type = static_cast<double>(shading::fresnelTypeFor(present, named, choice, "brdf_set"));
+}
+
 void refuseUnknown(const Scene& scene, const ParameterOverride& change) {
     std::vector<std::string> names;
     for (const Material& material : scene.materials)
@@ -78,10 +98,14 @@ void refuseUnknown(const Scene& scene, const ParameterOverride& change) {
                     std::find(names.begin(), names.end(), parameter.name) == names.end())
                     names.push_back(parameter.name);
     std::string all;
+    if (std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+            return material.brdf != kUnlit && hasFresnel(requireBrdf(material.brdf));
+        }))
+        names.emplace_back(kMetal);
     for (const std::string& name : names)
         all += (all.empty() ? "" : ", ") + name;
     throw UsageError("brdf_set: " + change.name + ": no model that " + scene.file +
-                     " is drawn with has this parameter; expected one of " + all +
+                     " is drawn with has such a number, colour or choice; expected one of " + all +
                      didYouMean(change.name, names));
 }
 
@@ -109,6 +133,8 @@ Scene withParameters(const Scene& scene, const std::vector<ParameterOverride>& c
         }
         if (!used) refuseUnknown(scene, change);
     }
+    for (Material& material : result.materials)
+        if (material.brdf != kUnlit) useFresnel(material, requireBrdf(material.brdf), changes);
     return result;
 }
 

@@ -24,11 +24,10 @@ FresnelCurve curveOf(const Sampler& sampler, const Interface& interface, const s
         const glm::dvec3 w = toEye(angle, 0.0);
         pairs.push_back({w, w});
     }
-    const std::vector<double> exact = reflectances(sampler,
-                                                   {{"fresnel", k == 0.0 ? "dielectric" : "conductor"},
-                                                    {"eta", shortNumber(eta)},
-                                                    {"k", shortNumber(k)}},
-                                                   pairs);
+    std::vector<Assignment> interfaceValues{{"fresnel", k == 0.0 ? "dielectric" : "conductor"},
+                                            {"eta", shortNumber(eta)}};
+    if (k != 0.0) interfaceValues.push_back({"k", shortNumber(k)});
+    const std::vector<double> exact = reflectances(sampler, interfaceValues, pairs);
     FresnelCurve curve{
         interface, ((eta - 1.0) * (eta - 1.0) + k * k) / ((eta + 1.0) * (eta + 1.0) + k * k), {}};
     const std::vector<double> schlick =

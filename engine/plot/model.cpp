@@ -9,6 +9,7 @@
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
+#include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 
 namespace lobe::plot {
@@ -146,6 +147,21 @@ void roundToFloats(ParameterValues& values) {
         value = double(static_cast<float>(value));
 }
 
+/// The equations that read what was set.
+void useFresnel(Model& model, const std::vector<Assignment>& assignments) {
+    const int type = model.brdf->parameterIndex(kFresnel);
+    if (type < 0 || model.brdf->parameters[static_cast<size_t>(type)].group != kFresnel) return;
+    std::vector<std::string> named;
+    std::string choice;
+    for (const Assignment& assignment : assignments) {
+        named.push_back(assignment.key);
+        if (assignment.key == kFresnel) choice = assignment.text;
+    }
+    double* place = placeOf(model, kFresnel);
+    const auto present = static_cast<shading::FresnelType>(static_cast<int>(*place));
+    *place = static_cast<double>(shading::fresnelTypeFor(present, named, choice, model.brdf->name));
+}
+
 /// False for optical constants that the chosen kind of Fresnel term does not read.
 bool counts(const Model& model, const Parameter& parameter) {
     const int type = model.brdf->parameterIndex(kFresnel);
@@ -196,6 +212,7 @@ Model makeModel(const std::string& name, const std::vector<Assignment>& assignme
             refuseParameter(brdf, assignment.key);
         }
     }
+    useFresnel(model, assignments);
     validate(model);
     roundToFloats(model.values);
     return model;

@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "base/byte_order_mark.hpp"
 #include "base/error.hpp"
 #include "shading/brdf_header.hpp"
 
@@ -277,7 +278,7 @@ BrdfSource readBrdfSource(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     BrdfSource source{file.string(), {}};
     if (stream && fs::file_size(file, failed) <= kMostBytes && !failed)
-        source.text.assign(std::istreambuf_iterator<char>(stream), {});
+        source.text = withoutByteOrderMark({std::istreambuf_iterator<char>(stream), {}});
     else
         throw InputError(file.string() + (stream ? ": is larger than 1 MiB" : ": cannot be read") +
                          "; expected a reflectance model in GLSL");

@@ -1,7 +1,9 @@
 #include "shading/fresnel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "shading/bands.hpp"
 
 namespace lobe::shading {
@@ -78,6 +80,35 @@ glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& 
 double oneMinusCosThetaD(const Directions& d) {
     const glm::dvec3 half = 0.5 * (d.wi - d.wo);  // as long as the sine
     return std::min(glm::dot(half, half) / (1.0 + 0.5 * glm::length(d.h)), 1.0);
+}
+
+FresnelType fresnelTypeFor(FresnelType present, const std::vector<std::string>& named,
+                           const std::string& choice, const std::string& where) {
+    const auto has = [&](const char* name) {
+        return std::find(named.begin(), named.end(), name) != named.end();
+    };
+    const auto refuse = [&](const std::string& one, const std::string& other) {
+        throw UsageError(where + ": " + one + " and " + other +
+                         " contradict each other; expected one of them");
+    };
+    for (const char* name : {"fresnel", "f0", "eta", "k"})
+        if (has("metal") && has(name)) refuse("metal", name);
+    for (const char* name : {"eta", "k"})
+        if (has("f0") && has(name)) refuse("f0", name);
+    if (has("metal")) return FresnelType::conductor;
+    if (has("fresnel")) {
+        const std::string stated = "fresnel=" + choice;
+        if (choice != "schlick" && has("f0")) refuse(stated, "f0");
+        if (choice == "schlick" && has("eta")) refuse(stated, "eta");
+        if (choice != "conductor" && has("k")) refuse(stated, "k");
+        return choice == "schlick"      ? FresnelType::schlick
+               : choice == "dielectric" ? FresnelType::dielectric
+               : choice == "conductor"  ? FresnelType::conductor
+                                        : present;
+    }
+    if (has("f0")) return FresnelType::schlick;
+    if (has("k")) return FresnelType::conductor;
+    return has("eta") && present == FresnelType::schlick ? FresnelType::dielectric : present;
 }
 
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface) {

@@ -38,6 +38,13 @@ struct PolarisedReflectance {
 };
 PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
+/// The equations that an interface of type `present` is computed with once the parameters `named` were set: a
+/// value puts in use what reads it (`f0`: Schlick; `k`: conductor; `eta`: dielectric, where neither exact
+/// type is in use). `named` may hold "metal", which stands for conductor, eta and k, and "fresnel" with its
+/// `choice`. Throws UsageError "WHERE: ..." where two of them contradict each other.
+FresnelType fresnelTypeFor(FresnelType present, const std::vector<std::string>& named,
+                           const std::string& choice, const std::string& where);
+
 /// The values that imitate a metallic-roughness surface: Schlick with glTF's normal reflectance.
 std::vector<double> fresnelFromMetallicRoughness(const MetallicRoughness& surface);
 

@@ -139,6 +139,7 @@ double DirectiveReader::number() {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (end != text.c_str() + text.size()) fail("'" + text + "' is not a number");
+    if (!std::isfinite(value)) fail("'" + text + "' is beyond all numbers; infinity is written inf");
     return value;
 }
 

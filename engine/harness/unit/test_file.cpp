@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "base/byte_order_mark.hpp"
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
 #include "harness/unit/directive_block.hpp"
@@ -23,7 +24,7 @@ std::vector<std::string> readLines(const std::filesystem::path& path) {
     if (!stream) throw InputError(path.string() + ": can't be read: " + std::strerror(errno));
     std::vector<std::string> lines;
     for (std::string line; std::getline(stream, line);)
-        lines.push_back(line);
+        lines.push_back(lines.empty() ? withoutByteOrderMark(line) : line);
     return lines;
 }
 

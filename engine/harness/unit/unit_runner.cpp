@@ -89,10 +89,12 @@ UnitResult runTest(const gl::ShaderLibrary& library, const TestFile& file, const
         const Fault fault = verdicts.faults.empty() ? worst->fault : verdicts.faults.front().second;
         result.failure = describeFailure(program, test, judge.evaluate(row), fault);
         fail(result, std::to_string(result.failing) + " of " + std::to_string(result.rows) + " inputs fail");
-    } else if (result.skipped == result.rows) {
-        fail(result, "assume() left no input out of " + std::to_string(result.rows));
     }
-    invertIfMustFail(result);
+    if (result.skipped == result.rows)
+        fail(result,
+             "assume() left no input out of " + std::to_string(result.rows));  // also of one that must
+    else
+        invertIfMustFail(result);
     result.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
     return result;
