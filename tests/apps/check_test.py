@@ -225,6 +225,17 @@ class Failures(CheckTest):
 
 
 class Runs(CheckTest):
+    def test_must_fail_without_inputs_is_a_failure_too(self):
+        self.write("none_test.glsl", "/// @test none @must_fail nothing left\n/// @in x: uniform(0, 1)\n"
+                                     "void none(float x) { assume(x > 2.0); check(false); }\n")
+        self.assertIn("assume() left no input", self.check(".", expect=1).stdout)
+
+    def test_byte_order_marks_and_links_to_nowhere(self):
+        self.write("mark_test.glsl", "\ufeff#version 330\n/// @test mark\n/// @in x: values(1)\n/// @expect finite\nfloat mark(float x) { return x; }\n")
+        self.check(".")
+        (self.folder / "gone_test.glsl").symlink_to("/nonexistent")
+        self.assertIn("gone_test.glsl: can't be read", self.check(".", expect=3).stdout)
+
     def test_foreign_glsl_with_versions_and_relative_includes(self):
         """A project that knows nothing of Lobe."""
         self.write("src/maths/square.glsl", "#version 410 core\n#extension GL_ARB_gpu_shader5 : enable\n#include \"constants.glsl\"\nfloat square(float x) { return ONE * x * x; }\n")

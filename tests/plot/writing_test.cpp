@@ -28,8 +28,12 @@ TEST(PlotModel, ParametersByTheNamesOfScenes) {
     const Model ggx = makeModel("ggx", {{"alpha", "0.2"}, {"metal", "gold"}});
     EXPECT_NE(describe(ggx).find("alphaX 0.2, alphaY 0.2"), std::string::npos);
     EXPECT_NE(describe(ggx).find("metal gold"), std::string::npos);
-    EXPECT_NE(describe(makeModel("ggx", {{"metal", "gold"}, {"k", "1"}})).find("conductor"),
+    // A value puts in use the equations that read it.
+    EXPECT_NE(describe(makeModel("ggx", {{"eta", "2"}})).find("fresnel dielectric, eta 2"),
               std::string::npos);
+    EXPECT_NE(describe(makeModel("ggx", {{"eta", "2"}, {"k", "1"}})).find("fresnel conductor"),
+              std::string::npos);
+    EXPECT_THROW(makeModel("ggx", {{"metal", "gold"}, {"k", "1"}}), UsageError);
     EXPECT_NE(describe(makeModel("lafortune", {{"lobes", "clay"}})).find("lobes clay"), std::string::npos);
     for (const double value : ggx.values)
         EXPECT_EQ(value, double(static_cast<float>(value)));

@@ -114,11 +114,6 @@ float planted_column(float x) { return x * x; }
 /// @must_fail 777 is not even
 bool planted_false(int i) { return i != 777; }
 
-/// @test planted_assumption  @tag planted
-/// @in x: uniform(0, 1)
-/// @must_fail no input is left
-void planted_assumption(float x) { assume(x > 2.0); }
-
 /// @test planted_in_vertex_shader  @tag planted  @stage vertex
 /// @in x: uniform(0, 1)
 /// @expect bounded(0, 0.5)
