@@ -320,7 +320,8 @@ TEST(SharedMemory, MovesAndCopies) {
     EXPECT_EQ(third.bytes()[99], std::byte{42});
     third.bytes()[0] = std::byte{7};
     EXPECT_EQ(second.bytes()[0], std::byte{7});
-    EXPECT_THROW(SharedMemory(std::numeric_limits<size_t>::max()), std::bad_alloc);
+    constexpr size_t kTooMuch = std::numeric_limits<size_t>::max();
+    EXPECT_THROW(SharedMemory{kTooMuch}, std::bad_alloc);
 }
 
 TEST(SharedMemory, RefusesWhatCouldShrink) {

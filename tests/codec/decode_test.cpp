@@ -256,7 +256,8 @@ TEST(Format, IsDecidedByContent) {
         {"\x89PNG", "format is unknown; expected PNG, JPEG, WebP, HDR or EXR"},
         {"{}", "format is unknown; expected PNG, JPEG, WebP, HDR or EXR"},
     };
-    for (const auto& [content, reason] : cases) {
+    for (const auto& [text, reason] : cases) {
+        const std::string& content = text;  // lambdas take no structured bindings
         EXPECT_EQ(refusal([&] { codec::decode(bytesOf(content)); }), reason);
         EXPECT_EQ(refusal([&] { codec::read(bytesOf(content)); }), reason);
         EXPECT_EQ(refusal([&] { codec::readMetadata(bytesOf(content)); }), reason);

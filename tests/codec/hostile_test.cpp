@@ -17,7 +17,7 @@ namespace {
 using samples::bytesOf;
 using std::chrono::steady_clock;
 
-constexpr WorkerLimits kLimits{size_t{1} << 30, std::chrono::milliseconds(20'000)};
+const WorkerLimits kLimits{size_t{1} << 30, std::chrono::milliseconds(20'000)};
 
 /// Counts what became of many files; fails the test on any end but the two allowed ones.
 struct Outcomes {
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Files, Hostile,
                          [](const auto& tested) { return tested.param; });
 
 /// OpenImageIO itself takes 72 MiB of address space for the smallest picture.
-constexpr WorkerLimits kSmall{size_t{160} << 20, std::chrono::milliseconds(20'000)};
+const WorkerLimits kSmall{size_t{160} << 20, std::chrono::milliseconds(20'000)};
 
 TEST(HostileFiles, ImpossibleSizesCostNothing) {
     ImageFiles files(kSmall);

@@ -100,7 +100,8 @@ TEST_F(ImageFilesTest, NamesTheFileThatCannotBeRead) {
         {folder / "pipe.png", "not a regular file"},
         {"/dev/zero", "not a regular file"},
     };
-    for (const auto& [file, reason] : cases) {
+    for (const auto& [path, reason] : cases) {
+        const fs::path& file = path;  // lambdas take no structured bindings
         EXPECT_THAT(messageOf([&] { files.read(file); }),
                     StartsWith("input: " + file.string() + ": " + reason));
         EXPECT_THAT(messageOf([&] { files.readMetadata(file); }),

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "gltf_builder.hpp"
 
@@ -13,7 +12,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kPi = std::numbers::pi;
 const float kHalf = std::sqrt(0.5f);
 
 Gltf withLight(const json& light, json node = json::object()) {
