@@ -52,4 +52,11 @@ std::string didYouMean(std::string_view name, const std::vector<std::string>& ca
     return best ? "; did you mean '" + *best + "'?" : std::string();
 }
 
+std::string listed(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names)
+        all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
 }  // namespace lobe

@@ -15,4 +15,7 @@ std::optional<std::string> closestName(std::string_view name, const std::vector<
 /// "; did you mean 'NAME'?" or the empty string: to be appended to a message about an unknown name.
 std::string didYouMean(std::string_view name, const std::vector<std::string>& candidates);
 
+/// "a, b, c".
+std::string listed(const std::vector<std::string>& names);
+
 }  // namespace lobe

@@ -19,14 +19,6 @@ constexpr const char* kTextureSuffix = "Texture";
 constexpr const char* kPreset = "preset";
 constexpr const char* kFresnelGroup = "fresnel";
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string all;
-    for (const std::string& name : names) {
-        all += (all.empty() ? "" : ", ") + name;
-    }
-    return all;
-}
-
 class BrdfReader {
 public:
     BrdfReader(const Brdf& brdf, std::string property, Document& document, Material& material)
@@ -66,7 +58,7 @@ private:
             names.push_back(preset.name);
         }
         refuse(document_.file, property_ + "." + kPreset, shown(name),
-               "one of " + joined(names) + didYouMean(given, names));
+               "one of " + listed(names) + didYouMean(given, names));
     }
 
     bool isGroup(const std::string& key) const {
@@ -107,7 +99,7 @@ private:
         }
         const std::vector<std::string> names = knownNames(group);
         refuse(document_.file, property_ + (group.empty() ? "." : "." + group + ".") + key, shown(value),
-               "one of " + joined(names) + didYouMean(key, names));
+               "one of " + listed(names) + didYouMean(key, names));
     }
 
     /// An object whose "type" is the group's choice and whose other members are parameters; of type "metal"
@@ -118,7 +110,7 @@ private:
             refuse(document_.file, property, shown(value), "an object with a type");
         }
         if (!value.contains("type")) {
-            refuse(document_.file, property + ".type", "missing", "one of " + joined(groupTypes(group)));
+            refuse(document_.file, property + ".type", "missing", "one of " + listed(groupTypes(group)));
         }
         const bool named = value.contains("name");
         const json type = value["type"];
@@ -171,7 +163,7 @@ private:
             }
             const std::string given = name.is_string() ? name.get<std::string>() : "";
             refuse(document_.file, property + ".name", name.is_null() ? "missing" : shown(name),
-                   "one of " + joined(names) + didYouMean(given, names));
+                   "one of " + listed(names) + didYouMean(given, names));
         };
         if (type == "metal") {
             const shading::Metal metal = find(shading::metals());
@@ -227,7 +219,7 @@ private:
             names.push_back(known);
         }
         refuse(document_.file, property, "'" + name + "'",
-               "an array of objects or one of " + joined(names) + didYouMean(name, names));
+               "an array of objects or one of " + listed(names) + didYouMean(name, names));
     }
 
     TableRows tableColumns(const json& value, const std::string& property) const {
@@ -235,7 +227,7 @@ private:
         if (!value.is_array() || value.empty() || value.size() > kMostElements) {
             refuse(document_.file, property, shown(value),
                    "an array of 1 to " + std::to_string(kMostElements) + " objects with " +
-                       joined(brdf_.table->columns));
+                       listed(brdf_.table->columns));
         }
         std::vector<double> columns;
         for (size_t i = 0; i < value.size(); ++i) {
@@ -250,7 +242,7 @@ private:
             for (const auto& [key, member] : value[i].items()) {
                 const auto& known = brdf_.table->columns;
                 if (std::find(known.begin(), known.end(), key) == known.end()) {
-                    refuse(document_.file, at(property, i, key), shown(member), "one of " + joined(known));
+                    refuse(document_.file, at(property, i, key), shown(member), "one of " + listed(known));
                 }
             }
         }
@@ -322,7 +314,7 @@ private:
                 const auto found = std::find(choices.begin(), choices.end(), name);
                 if (found == choices.end()) {
                     refuse(document_.file, property, shown(value),
-                           "one of " + joined(group.empty() ? choices : groupTypes(group)) +
+                           "one of " + listed(group.empty() ? choices : groupTypes(group)) +
                                didYouMean(name, choices));
                 }
                 *out = static_cast<double>(found - choices.begin());
@@ -394,7 +386,7 @@ void readNamedBrdf(const json& extension, const std::string& property, Document&
     const Brdf* brdf = findBrdf(model);
     if (brdf == nullptr) {
         refuse(document.file, property + ".model", shown(extension["model"]),
-               "one of " + joined(brdfNames()) + didYouMean(model, brdfNames()));
+               "one of " + listed(brdfNames()) + didYouMean(model, brdfNames()));
     }
     BrdfReader(*brdf, property, document, material).read(extension);
 }

@@ -29,10 +29,7 @@ std::vector<double> valuesFor(const Parameter& parameter, const ParameterOverrid
     if (parameter.kind == ParameterKind::choice) {
         const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), change.text);
         if (found != parameter.choices.end()) return {static_cast<double>(found - parameter.choices.begin())};
-        std::string names;
-        for (const std::string& choice : parameter.choices)
-            names += (names.empty() ? "" : ", ") + choice;
-        refuse(change, "one of " + names + didYouMean(change.text, parameter.choices));
+        refuse(change, "one of " + listed(parameter.choices) + didYouMean(change.text, parameter.choices));
     }
     const auto components = static_cast<size_t>(parameter.components());
     if (change.numbers.size() == components) return change.numbers;
@@ -46,33 +43,18 @@ void assign(Material& material, const Brdf& brdf, int index, const std::vector<d
     material.textures[static_cast<size_t>(index)] = {};
 }
 
-/// Optical constants by name, for models with Fresnel's equations. False for others.
-bool assignMetal(Material& material, const Brdf& brdf, const ParameterOverride& change) {
-    const int type = brdf.parameterIndex("fresnel");
-    const int eta = brdf.parameterIndex("eta");
-    const int k = brdf.parameterIndex("k");
-    if (type < 0 || eta < 0 || k < 0 || brdf.parameters[static_cast<size_t>(type)].group != "fresnel")
-        return false;
-    std::vector<std::string> names;
-    for (const shading::Metal& metal : shading::metals()) {
-        names.push_back(metal.name);
-        if (metal.name != change.text) continue;
-        const auto& choices = brdf.parameters[static_cast<size_t>(type)].choices;
-        const auto conductor = std::find(choices.begin(), choices.end(), "conductor") - choices.begin();
-        assign(material, brdf, type, {static_cast<double>(conductor)});
-        assign(material, brdf, eta, {metal.eta.r, metal.eta.g, metal.eta.b});
-        assign(material, brdf, k, {metal.k.r, metal.k.g, metal.k.b});
-        return true;
-    }
-    std::string all;
-    for (const std::string& name : names)
-        all += (all.empty() ? "" : ", ") + name;
-    refuse(change, "one of " + all + didYouMean(change.text, names));
-}
-
 bool hasFresnel(const Brdf& brdf) {
     const int type = brdf.parameterIndex("fresnel");
     return type >= 0 && brdf.parameters[static_cast<size_t>(type)].group == "fresnel";
+}
+
+/// Optical constants by name, for models with Fresnel's equations. False for others.
+bool assignMetal(Material& material, const Brdf& brdf, const ParameterOverride& change) {
+    if (!hasFresnel(brdf)) return false;
+    shading::setMetal(brdf, material.values, shading::requireMetal(change.text, "brdf_set: metal"));
+    for (const char* name : {"eta", "k"})  // a texture would multiply them
+        material.textures[static_cast<size_t>(brdf.parameterIndex(name))] = {};
+    return true;
 }
 
 /// The equations that read what was set.
@@ -105,7 +87,7 @@ void refuseUnknown(const Scene& scene, const ParameterOverride& change) {
     for (const std::string& name : names)
         all += (all.empty() ? "" : ", ") + name;
     throw UsageError("brdf_set: " + change.name + ": no model that " + scene.file +
-                     " is drawn with has such a number, colour or choice; expected one of " + all +
+                     " is drawn with has such a number, colour or choice; expected one of " + listed(names) +
                      didYouMean(change.name, names));
 }
 

@@ -28,13 +28,6 @@ bool isMetal(const Brdf& brdf, const std::string& key) {
     return key == kMetal && brdf.parameterIndex(kFresnel) >= 0 && brdf.parameterIndex("k") >= 0;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string all;
-    for (const std::string& name : names)
-        all += (all.empty() ? "" : ", ") + name;
-    return all;
-}
-
 [[noreturn]] void refuse(const Brdf& brdf, const Assignment& assignment, const std::string& expected) {
     throw UsageError(brdf.name + ": " + assignment.key + ": '" + assignment.text + "'; expected " + expected);
 }
@@ -59,22 +52,10 @@ double* placeOf(Model& model, const std::string& name) {
 }
 
 void setMetal(Model& model, const Assignment& assignment) {
-    std::vector<std::string> names;
-    for (const shading::Metal& metal : shading::metals()) {
-        names.push_back(metal.name);
-        if (metal.name != assignment.text) continue;
-        model.metal = metal.name;
-        const Parameter& type =
-            model.brdf->parameters[static_cast<size_t>(model.brdf->parameterIndex(kFresnel))];
-        *placeOf(model, kFresnel) = static_cast<double>(
-            std::find(type.choices.begin(), type.choices.end(), "conductor") - type.choices.begin());
-        for (int c = 0; c < 3; ++c) {
-            placeOf(model, "eta")[c] = metal.eta[c];
-            placeOf(model, "k")[c] = metal.k[c];
-        }
-        return;
-    }
-    refuse(*model.brdf, assignment, "one of " + joined(names) + didYouMean(assignment.text, names));
+    const shading::Metal& metal =
+        shading::requireMetal(assignment.text, model.brdf->name + ": " + assignment.key + ":");
+    shading::setMetal(*model.brdf, model.values, metal);
+    model.metal = metal.name;
 }
 
 std::vector<std::byte> bytesOf(const std::string& path) {
@@ -106,7 +87,7 @@ void setTable(Model& model, const Assignment& assignment) {
         }
     }
     if (rows.empty())
-        refuse(*model.brdf, assignment, "one of " + joined(names) + didYouMean(assignment.text, names));
+        refuse(*model.brdf, assignment, "one of " + listed(names) + didYouMean(assignment.text, names));
     model.values.resize(static_cast<size_t>(model.brdf->valueCount()));
     model.values.insert(model.values.end(), rows.begin(), rows.end());
     model.table = assignment.text.substr(assignment.text.rfind('/') + 1);
@@ -121,7 +102,7 @@ void setValue(Model& model, const Parameter& parameter, const Assignment& assign
         const auto found = std::find(choices.begin(), choices.end(), assignment.text);
         if (found == choices.end())
             refuse(*model.brdf, assignment,
-                   "one of " + joined(choices) + didYouMean(assignment.text, choices));
+                   "one of " + listed(choices) + didYouMean(assignment.text, choices));
         *place = static_cast<double>(found - choices.begin());
         return;
     }
@@ -240,7 +221,7 @@ void refuseParameter(const Brdf& brdf, const std::string& key) {
     for (const char* synonym : {kAlpha, kMetal})
         if (brdf.parameterIndex(synonym) < 0 && hasParameter(brdf, synonym)) names.emplace_back(synonym);
     throw UsageError(brdf.name + ": unknown parameter '" + key + "'" + didYouMean(key, names) +
-                     "; expected one of " + joined(names));
+                     "; expected one of " + listed(names));
 }
 
 const Parameter& scalarParameterOf(const Brdf& brdf, const std::string& key) {

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "shading/bands.hpp"
+#include "shading/metals.hpp"
 
 namespace lobe::shading {
 namespace {
@@ -80,6 +81,17 @@ glm::dvec3 fresnelReflectance(std::span<const double> values, const Directions& 
 double oneMinusCosThetaD(const Directions& d) {
     const glm::dvec3 half = 0.5 * (d.wi - d.wo);  // as long as the sine
     return std::min(glm::dot(half, half) / (1.0 + 0.5 * glm::length(d.h)), 1.0);
+}
+
+void setMetal(const Brdf& brdf, std::span<double> values, const Metal& metal) {
+    const auto place = [&](const char* name) {
+        return values.subspan(static_cast<size_t>(brdf.valueOffset(brdf.parameterIndex(name))));
+    };
+    place("fresnel")[0] = static_cast<double>(FresnelType::conductor);
+    for (size_t c = 0; c < 3; ++c) {
+        place("eta")[c] = metal.eta[static_cast<int>(c)];
+        place("k")[c] = metal.k[static_cast<int>(c)];
+    }
 }
 
 FresnelType fresnelTypeFor(FresnelType present, const std::vector<std::string>& named,

@@ -38,6 +38,10 @@ struct PolarisedReflectance {
 };
 PolarisedReflectance polarisedReflectance(std::complex<double> index, double cosTheta, double oneMinusCos);
 
+struct Metal;
+/// Makes the model's interface the metal's: conductor with its index. `values` are the model's.
+void setMetal(const Brdf& brdf, std::span<double> values, const Metal& metal);
+
 /// The equations that an interface of type `present` is computed with once the parameters `named` were set: a
 /// value puts in use what reads it (`f0`: Schlick; `k`: conductor; `eta`: dielectric, where neither exact
 /// type is in use). `named` may hold "metal", which stands for conductor, eta and k, and "fresnel" with its

@@ -1,5 +1,8 @@
 #include "shading/metals.hpp"
 
+#include "base/closest_name.hpp"
+#include "base/error.hpp"
+
 namespace lobe::shading {
 
 const std::vector<Metal>& metals() {
@@ -20,6 +23,15 @@ const std::vector<Metal>& metals() {
         {"platinum", {2.35423, 2.06875, 1.88085}, {4.1988, 3.6120, 3.2271}},
     };
     return table;
+}
+
+const Metal& requireMetal(const std::string& name, const std::string& where) {
+    std::vector<std::string> names;
+    for (const Metal& metal : metals()) {
+        if (metal.name == name) return metal;
+        names.push_back(metal.name);
+    }
+    throw UsageError(where + " '" + name + "'; expected one of " + listed(names) + didYouMean(name, names));
 }
 
 const std::vector<NamedReflectance>& namedReflectances() {

@@ -18,6 +18,9 @@ struct Metal {
 /// published with pbrt and Mitsuba.
 const std::vector<Metal>& metals();
 
+/// Throws UsageError "WHERE 'NAME'; expected one of ..." with the nearest name.
+const Metal& requireMetal(const std::string& name, const std::string& where);
+
 /// Reflectance at normal incidence, linear RGB.
 struct NamedReflectance {
     std::string name;
