@@ -89,6 +89,8 @@ TEST(Bands, NormalReflectanceIsThatOfTheWholeSpectrum) {
             const glm::dvec3 got =
                 shading::bandReflectance(shading::bandsOf(*shading::metalSpectrum(name), count), 1.0);
             for (int c = 0; c < 3; ++c)
+                // Those were made with tabulated matching functions, ours with a fit of them: chosen, not
+                // derived.
                 EXPECT_NEAR(got[c], f0[c], count == 64 ? 0.006 : 0.01) << name << " " << count << " " << c;
         }
 }
