@@ -80,7 +80,7 @@ std::string modelForAll(const Scene& scene, const Settings& settings) {
 }
 
 bool needsLight(const Scene& scene) {
-    return scene.lights.empty() && !scene.ambientRadiance;
+    return scene.lights.empty() && !scene.ambientRadiance && !scene.environment;
 }
 
 /// The key light belongs to the first frame's camera, so that it does not turn with a turntable.

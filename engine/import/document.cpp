@@ -147,10 +147,18 @@ tinygltf::Model typedModel(const Document& document) {
 }  // namespace
 
 const std::vector<std::string>& supportedExtensions() {
-    static const std::vector<std::string> kNames{"EXT_texture_webp",      "KHR_draco_mesh_compression",
-                                                 "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-                                                 "KHR_materials_unlit",   "KHR_mesh_quantization",
-                                                 "KHR_texture_transform", "LOBE_ambient",
+    static const std::vector<std::string> kNames{"EXT_lights_area",
+                                                 "EXT_texture_webp",
+                                                 "KHR_draco_mesh_compression",
+                                                 "KHR_lights_punctual",
+                                                 "KHR_materials_emissive_strength",
+                                                 "KHR_materials_unlit",
+                                                 "KHR_mesh_quantization",
+                                                 "KHR_texture_transform",
+                                                 "LOBE_ambient",
+                                                 "LOBE_environment",
+                                                 "LOBE_fog",
+                                                 "LOBE_light_shape",
                                                  "LOBE_materials_brdf"};
     return kNames;
 }

@@ -9,6 +9,13 @@ namespace {
 constexpr double kLargest = FLT_MAX;
 constexpr double kPi = 3.14159265358979323846;
 
+/// Sizes of lights: their squares and the squares' inverses are floats.
+constexpr double kSmallestSize = 1e-9;
+constexpr double kLargestSize = 1e9;
+ValueRule sizeInMetres() {
+    return number(kSmallestSize, kLargestSize);
+}
+
 ValueRule numbers(size_t count) {
     return arrayOf(number(), count, count);
 }
@@ -134,7 +141,8 @@ const ObjectSchema& mesh() {
 
 const ObjectSchema& node() {
     static const ObjectSchema light{{required("light", integer(0))}};
-    static const ObjectSchema extensions{{optional(kLightsExtension, objectOf(light))}};
+    static const ObjectSchema extensions{
+        {optional(kLightsExtension, objectOf(light)), optional(kAreaLightsExtension, objectOf(light))}};
     static const ObjectSchema schema{
         {optional("name", text()), optional("camera", indexOf("cameras")),
          optional("children", arrayOf(indexOf("nodes"))), optional("skin", indexOf("skins")),
@@ -146,7 +154,17 @@ const ObjectSchema& node() {
 
 const ObjectSchema& scene() {
     static const ObjectSchema ambient{{optional("radiance", arrayOf(number(0.0, kLargest), 3, 3))}};
-    static const ObjectSchema extensions{{optional("LOBE_ambient", objectOf(ambient))}};
+    static const ObjectSchema environment{
+        {optional("image", text()), optional("radiance", arrayOf(number(0.0, kLargest), 3, 3)),
+         optional("intensity", number(0.0, kLargest)), optional("rotation", numbers(4)),
+         optional("background", boolean())}};
+    static const ObjectSchema fog{{optional("extinction", arrayOf(number(0.0, kLargest), 3, 3)),
+                                   optional("radiance", arrayOf(number(0.0, kLargest), 3, 3)),
+                                   optional("heightFalloff", number(0.0, kLargest)),
+                                   optional("height", number())}};
+    static const ObjectSchema extensions{{optional("LOBE_ambient", objectOf(ambient)),
+                                          optional("LOBE_environment", objectOf(environment)),
+                                          optional("LOBE_fog", objectOf(fog))}};
     static const ObjectSchema schema{{optional("name", text()), optional("nodes", arrayOf(indexOf("nodes"))),
                                       optional("extensions", objectOf(extensions))}};
     return schema;
@@ -166,14 +184,26 @@ const ObjectSchema& rootExtensions() {
     constexpr double kRightAngle = kPi / 2 + 1e-6;
     static const ObjectSchema spot{{optional("innerConeAngle", number(0.0, kRightAngle)),
                                     optional("outerConeAngle", number(0.0, kRightAngle))}};
+    static const ObjectSchema shape{{required("shape", oneOf(std::vector<std::string>{"sphere", "tube"})),
+                                     required("radius", sizeInMetres()),
+                                     optional("length", number(0.0, kLargestSize))}};
+    static const ObjectSchema lightExtensions{{optional(kLightShapeExtension, objectOf(shape))}};
     static const ObjectSchema light{
         {optional("name", text()),
          required("type", oneOf(std::vector<std::string>{"directional", "point", "spot"})),
          optional("color", arrayOf(number(0.0, kLargest), 3, 3)),
          optional("intensity", number(0.0, kLargest)), optional("range", numberAbove(0.0)),
-         optional("spot", objectOf(spot))}};
+         optional("spot", objectOf(spot)), optional("extensions", objectOf(lightExtensions))}};
     static const ObjectSchema lights{{required("lights", arrayOf(objectOf(light)))}};
-    static const ObjectSchema schema{{optional(kLightsExtension, objectOf(lights))}};
+    static const ObjectSchema rect{{optional("aspect", sizeInMetres())}};
+    static const ObjectSchema areaLight{{optional("name", text()),
+                                         required("type", oneOf(std::vector<std::string>{"rect", "disk"})),
+                                         optional("color", arrayOf(number(0.0, kLargest), 3, 3)),
+                                         optional("intensity", number(0.0, kLargest)),
+                                         optional("size", sizeInMetres()), optional("rect", objectOf(rect))}};
+    static const ObjectSchema areaLights{{required("lights", arrayOf(objectOf(areaLight)))}};
+    static const ObjectSchema schema{
+        {optional(kLightsExtension, objectOf(lights)), optional(kAreaLightsExtension, objectOf(areaLights))}};
     return schema;
 }
 

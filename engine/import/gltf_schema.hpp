@@ -9,5 +9,8 @@ const ObjectSchema& gltfSchema();
 
 /// KHR_lights_punctual's root object: its lights are indexed by nodes, which gltfSchema() can't check.
 inline constexpr const char* kLightsExtension = "KHR_lights_punctual";
+/// The same for EXT_lights_area.
+inline constexpr const char* kAreaLightsExtension = "EXT_lights_area";
+inline constexpr const char* kLightShapeExtension = "LOBE_light_shape";
 
 }  // namespace lobe

@@ -6,12 +6,14 @@
 
 #include "import/accessors.hpp"
 #include "import/animation.hpp"
-#include "import/lights_cameras.hpp"
+#include "import/cameras.hpp"
+#include "import/lights.hpp"
 #include "import/materials.hpp"
 #include "import/normals.hpp"
 #include "import/refuse.hpp"
 #include "import/skin.hpp"
 #include "import/source_mesh.hpp"
+#include "import/surroundings.hpp"
 #include "import/tangents.hpp"
 #include "import/textures.hpp"
 #include "scene/brdf_tables.hpp"
@@ -52,10 +54,9 @@ public:
         for (const int node : tree_.drawn) {
             addNode(static_cast<size_t>(node));
         }
-        addTextures();
+        addImages();
         scene.lights = readLights(document_, tree_, world_);
         scene.cameras = readCameras(document_, tree_, world_);
-        readAmbient();
         warnOfRepairs();
         placeTables(scene.materials);
         scene.contentHash = document_.hash.hex();
@@ -242,29 +243,19 @@ private:
     }
 
     /// Materials have indices into the file's textures until here; only those that are drawn are read.
-    void addTextures() {
+    void addImages() {
         TextureTable table(document_);
         for (Material& material : result_.scene.materials) {
             for (TextureSlot* slot : textureSlots(material)) {
                 slot->texture = table.use(slot->texture);
             }
         }
+        readSurroundings(document_, table, result_.scene);
         result_.scene.textures = std::move(table.textures);
         for (const EncodedImage& image : table.images) {
             result_.scene.imageNames.push_back(image.name);
         }
         result_.images = std::move(table.images);
-    }
-
-    void readAmbient() {
-        const auto scene = shownScene(document_);
-        const nlohmann::json* ambient =
-            scene ? document_.extension("scenes", *scene, "LOBE_ambient") : nullptr;
-        if (ambient != nullptr && ambient->contains("radiance")) {
-            const nlohmann::json& rgb = (*ambient)["radiance"];
-            result_.scene.ambientRadiance = {rgb[0].get<double>(), rgb[1].get<double>(),
-                                             rgb[2].get<double>()};
-        }
     }
 
     void warnOfRepairs() {

@@ -19,6 +19,17 @@ Wrap wrapOf(int gltfWrap) {
     }
 }
 
+/// The bytes that a URI stands for; those of a file count for the scene's hash.
+std::vector<std::byte> readUri(Document& document, const std::string& uri, const std::string& property) {
+    if (isDataUri(uri)) {
+        return decodeDataUri(uri, document.file, property);
+    }
+    std::vector<std::byte> bytes = readReferencedFile(
+        resolveUri(uri, document.folder, document.file, property), uri, document.file, property);
+    document.hash.add(bytes);
+    return bytes;
+}
+
 std::vector<std::byte> readImage(Document& document, size_t index) {
     const nlohmann::json& image = document.json["images"][index];
     if (image.contains("uri") == image.contains("bufferView")) {
@@ -29,15 +40,7 @@ std::vector<std::byte> readImage(Document& document, size_t index) {
         const auto view = document.viewBytes(image["bufferView"].get<size_t>());
         return {view.begin(), view.end()};
     }
-    const std::string property = at("images", index, "uri");
-    const auto& uri = image["uri"].get_ref<const std::string&>();
-    if (isDataUri(uri)) {
-        return decodeDataUri(uri, document.file, property);
-    }
-    std::vector<std::byte> bytes = readReferencedFile(
-        resolveUri(uri, document.folder, document.file, property), uri, document.file, property);
-    document.hash.add(bytes);
-    return bytes;
+    return readUri(document, image["uri"], at("images", index, "uri"));
 }
 
 }  // namespace
@@ -100,6 +103,12 @@ int TextureTable::addImage(int gltfImage, int fallback) {
     const int result = static_cast<int>(images.size()) - 1;
     imageIndex_.emplace(gltfImage, result);
     return result;
+}
+
+int TextureTable::addFile(const std::string& uri, const std::string& property) {
+    const std::string name = property + (isDataUri(uri) ? "" : " (" + shown(uri) + ")");
+    images.push_back({name, readUri(document_, uri, property), -1});
+    return static_cast<int>(images.size()) - 1;
 }
 
 Sampler TextureTable::sampler(int gltfSampler) const {

@@ -18,6 +18,10 @@ public:
     /// the image can't be read.
     int use(int gltfTexture);
 
+    /// The index in `images` of a file beside the scene that is none of glTF's images. `property` says where
+    /// the scene names it. Throws InputError if it can't be read.
+    int addFile(const std::string& uri, const std::string& property);
+
     std::vector<Texture> textures;
     std::vector<EncodedImage> images;
 

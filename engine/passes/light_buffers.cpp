@@ -33,6 +33,8 @@ void pushLight(std::vector<float>& data, const Light& light, const glm::dvec3& e
             push(data, light.direction, cone.offset);
             break;
         }
+        default:
+            break;
     }
 }
 
@@ -45,7 +47,7 @@ LightBuffers::LightBuffers(const Scene& scene, const FramePlan& plan) {
     clustered_[static_cast<size_t>(LightType::point)] = plan.clusteredPoint;
     clustered_[static_cast<size_t>(LightType::spot)] = plan.clusteredSpot;
     for (const Light& light : scene.lights)
-        lights_[static_cast<size_t>(light.type)].push_back(&light);
+        if (isPunctual(light.type)) lights_[static_cast<size_t>(light.type)].push_back(&light);
     for (size_t type = 0; type < 3; ++type) {
         auto& list = lights_[type];
         const auto split = clustered_[type] ? std::stable_partition(list.begin(), list.end(),

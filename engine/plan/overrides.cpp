@@ -88,7 +88,8 @@ Scene withBrdf(const Scene& scene, const Brdf& brdf) {
 }
 
 bool addDefaultLight(Scene& scene, const Camera& camera) {
-    if (!scene.lights.empty() || scene.ambientRadiance || !takesLight(scene)) return false;
+    if (!scene.lights.empty() || scene.ambientRadiance || scene.environment || !takesLight(scene))
+        return false;
     const glm::dmat3 worldFromCamera(camera.worldFromCamera);
     Light key;
     key.name = "default key";

@@ -18,7 +18,19 @@ void Planner::requireForwardLoop(const char* type, int global) const {
                          " without range over blended surfaces; expected at most " + std::to_string(kMost));
 }
 
+void Planner::planUndrawn() {
+    static const std::map<LightType, const char*> kNames{{LightType::rect, "rect"},
+                                                         {LightType::disk, "disk"},
+                                                         {LightType::sphere, "sphere"},
+                                                         {LightType::tube, "tube"}};
+    for (const auto& [type, count] : scene_.bodyLights)
+        leaveOut("light", kNames.at(type), plural(count, "light") + "; not drawn yet");
+    if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
+    if (scene_.fog) leaveOut("pass", "fog", "not drawn yet");
+}
+
 void Planner::planLights() {
+    planUndrawn();
     const int from = plan_.quality.clusterFrom;
     const auto clustered = [&](const char* type, int count, int ranged, int& global) {
         if (count == 0) return false;

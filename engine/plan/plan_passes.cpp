@@ -42,6 +42,8 @@ void Planner::lightDefines(Defines& defines, LightType type) const {
             if (plan_.globalSpotLights > 0) defines["SPOT_LIGHTS"] = "1";
             if (plan_.clusteredSpot) defines["SPOT_CLUSTERS"] = "1";
             break;
+        default:
+            break;
     }
 }
 

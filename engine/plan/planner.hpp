@@ -55,6 +55,8 @@ private:
     /// One loop of a fragment shader runs over all lights that reach everything; software drivers end loops
     /// at 65535.
     void requireForwardLoop(const char* type, int global) const;
+    /// What the scene has and the reference alone computes so far.
+    void planUndrawn();
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights();
     Defines commonDefines() const;

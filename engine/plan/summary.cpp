@@ -119,8 +119,13 @@ void countLights(const Scene& scene, SceneSummary& summary) {
                 ++summary.spotLights;
                 summary.rangedSpotLights += light.range ? 1 : 0;
                 break;
+            default:
+                ++summary.bodyLights[light.type];
+                break;
         }
     }
+    summary.environment = scene.environment.has_value();
+    summary.fog = scene.fog.has_value();
     summary.ambient = scene.ambientRadiance && *scene.ambientRadiance != glm::dvec3(0.0);
 }
 

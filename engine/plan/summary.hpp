@@ -67,6 +67,8 @@ struct SceneSummary {
     std::vector<int> materialsInUse;        ///< indices into Scene::materials, ascending
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
+    std::map<LightType, int> bodyLights;  ///< rect, disk, sphere, tube: how many, where there are any
+    bool environment = false, fog = false;
     bool ambient = false;
     bool emission = false;
     bool opaque = false, masked = false, blended = false;

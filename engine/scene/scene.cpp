@@ -1,6 +1,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 
 namespace lobe {
 
@@ -8,6 +9,22 @@ void Bounds::add(const glm::dvec3& point) {
     lower = empty ? point : glm::min(lower, point);
     upper = empty ? point : glm::max(upper, point);
     empty = false;
+}
+
+glm::dvec3 radianceOf(const Light& light) {
+    constexpr double kPi = glm::pi<double>();
+    const double disk = kPi * light.radius * light.radius;
+    switch (light.type) {
+        case LightType::rect:
+        case LightType::disk:
+            return light.intensity;
+        case LightType::sphere:
+            return light.intensity / disk;
+        case LightType::tube:
+            return light.intensity / (2.0 * light.radius * light.length + disk);
+        default:
+            return glm::dvec3(0.0);
+    }
 }
 
 Bounds Scene::bounds() const {

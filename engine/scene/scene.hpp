@@ -94,18 +94,55 @@ struct Instance {
     std::string node;
 };
 
-enum class LightType : uint8_t { directional, point, spot };
+/// Punctual lights first: isPunctual().
+enum class LightType : uint8_t { directional, point, spot, rect, disk, sphere, tube };
 
 struct Light {
     std::string name;
     LightType type = LightType::point;
-    glm::dvec3 position{0.0};              ///< world
-    glm::dvec3 direction{0.0, 0.0, -1.0};  ///< world, unit, the way light travels
-    /// directional: irradiance on a facing surface, W/m^2; point, spot: radiant intensity, W/sr.
+    glm::dvec3 position{0.0};  ///< world
+    /// World, unit, the way light travels; rect, disk: the normal of the side that emits.
+    glm::dvec3 direction{0.0, 0.0, -1.0};
+    /// directional: irradiance on a facing surface, W/m^2; point, spot, sphere, tube: radiant intensity, W/sr
+    /// (a tube's: seen from the side); rect, disk: radiance, W/(m^2 sr).
     glm::dvec3 intensity{1.0};
-    std::optional<double> range;  ///< metres; no window where absent
+    std::optional<double> range;  ///< metres, from the centre; no window where absent; never of rect and disk
     double innerConeAngle = 0.0;  ///< spot, radians
     double outerConeAngle = 0.7853981633974483;
+    /// World, unit, at right angles to `direction`: along a rect's width, along a tube.
+    glm::dvec3 axis{1.0, 0.0, 0.0};
+    double width = 0.0;   ///< rect, along `axis`, metres
+    double height = 0.0;  ///< rect, across it, metres
+    double radius = 0.0;  ///< disk, sphere, tube, metres
+    double length = 0.0;  ///< tube: between the centres of its hemispherical ends, metres
+};
+
+constexpr bool isPunctual(LightType type) {
+    return type <= LightType::spot;
+}
+
+/// Radiance of a light with a body, W/(m^2 sr), before the window of its range. Zero for punctual lights,
+/// which have none.
+glm::dvec3 radianceOf(const Light& light);
+
+/// Light from infinity, from all sides (LOBE_environment).
+struct Environment {
+    /// Index into Scene::images of an equirectangular picture of radiance: +Y up, its centre column along +Z,
+    /// its left quarter column along +X; -1: `radiance` from everywhere.
+    int image = -1;
+    glm::dvec3 radiance{1.0};  ///< without an image, W/(m^2 sr)
+    double intensity = 1.0;    ///< multiplies the image's radiance
+    glm::dmat3 worldFromMap{1.0};
+    bool background = true;  ///< seen where no surface is
+};
+
+/// Beer-Lambert transmittance of the way from surface to eye (LOBE_fog): sigma(y) = extinction
+/// exp(-heightFalloff (y - height)), and radiance (1 - T) added.
+struct Fog {
+    glm::dvec3 extinction{0.0};  ///< 1/m
+    glm::dvec3 radiance{0.0};    ///< W/(m^2 sr)
+    double heightFalloff = 0.0;  ///< 1/m
+    double height = 0.0;         ///< world y, metres
 };
 
 struct Camera {
@@ -143,8 +180,10 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::optional<glm::dvec3> ambientRadiance;  ///< LOBE_ambient, W/(m^2 sr)
-    std::vector<std::string> warnings;          ///< one line each: what was read otherwise than the file says
-    std::vector<double> animationDurations;     ///< seconds, one an animation
+    std::optional<Environment> environment;
+    std::optional<Fog> fog;
+    std::vector<std::string> warnings;       ///< one line each: what was read otherwise than the file says
+    std::vector<double> animationDurations;  ///< seconds, one an animation
 
     Bounds bounds() const;         ///< of all instances, in world space
     size_t triangleCount() const;  ///< drawn, counting each instance

@@ -186,7 +186,20 @@ void serialize(Archive& archive, Instance& instance) {
 template<typename Archive>
 void serialize(Archive& archive, Light& light) {
     archive(light.name, light.type, light.position, light.direction, light.intensity, light.range,
-            light.innerConeAngle, light.outerConeAngle);
+            light.innerConeAngle, light.outerConeAngle, light.axis, light.width, light.height, light.radius,
+            light.length);
+}
+
+template<typename Archive>
+void serialize(Archive& archive, Environment& environment) {
+    archive(environment.image, environment.radiance, environment.intensity);
+    archive(environment.worldFromMap[0], environment.worldFromMap[1], environment.worldFromMap[2]);
+    archive(environment.background);
+}
+
+template<typename Archive>
+void serialize(Archive& archive, Fog& fog) {
+    archive(fog.extinction, fog.radiance, fog.heightFalloff, fog.height);
 }
 
 template<typename Archive>
@@ -199,7 +212,7 @@ template<typename Archive>
 void serialize(Archive& archive, Scene& scene) {
     archive(scene.name, scene.file, scene.contentHash, scene.images, scene.imageNames, scene.textures);
     archive(scene.materials, scene.primitives, scene.instances, scene.lights, scene.cameras);
-    archive(scene.ambientRadiance, scene.warnings, scene.animationDurations);
+    archive(scene.ambientRadiance, scene.environment, scene.fog, scene.warnings, scene.animationDurations);
 }
 
 }  // namespace lobe::scene_archive

@@ -155,14 +155,5 @@ TEST(Cameras, DamageIsRefused) {
                 HasSubstr("cameras[0].orthographic.xmag: 0; expected a number other than 0"));
 }
 
-TEST(Ambient, IsReadFromTheShownScene) {
-    Gltf gltf = triangle();
-    EXPECT_FALSE(gltf.import().scene.ambientRadiance.has_value());
-    gltf.doc["scenes"][0]["extensions"]["LOBE_ambient"]["radiance"] = {0.1, 0.2, 0.3};
-    EXPECT_EQ(gltf.import().scene.ambientRadiance, glm::dvec3(0.1, 0.2, 0.3));
-    gltf.doc["scenes"][0]["extensions"]["LOBE_ambient"]["radiance"] = {0.1, -0.2, 0.3};
-    EXPECT_THAT(gltf.refusal(), HasSubstr("scenes[0].extensions.LOBE_ambient.radiance[1]: -0.2; expected"));
-}
-
 }  // namespace
 }  // namespace lobe::test

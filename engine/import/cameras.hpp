@@ -1,4 +1,4 @@
-/// Punctual lights and cameras, placed in the world.
+/// Cameras, placed in the world.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,6 @@
 #include "scene/scene.hpp"
 
 namespace lobe {
-
-/// KHR_lights_punctual, one light a node that the scene shows.
-std::vector<Light> readLights(const Document& document, const NodeTree& tree, const WorldPose& world);
 
 /// One camera a node that the scene shows. Scale is taken out, with a warning.
 std::vector<Camera> readCameras(Document& document, const NodeTree& tree, const WorldPose& world);

@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gltf_builder.hpp"
+
+namespace lobe::test {
+namespace {
+
+using testing::HasSubstr;
+
+Gltf with(const char* extension, const json& value) {
+    Gltf gltf = triangle();
+    gltf.doc["extensionsUsed"] = {extension};
+    gltf.doc["scenes"][0]["extensions"][extension] = value;
+    return gltf;
+}
+
+TEST(Ambient, IsReadFromTheShownScene) {
+    EXPECT_FALSE(triangle().import().scene.ambientRadiance.has_value());
+    EXPECT_EQ(with("LOBE_ambient", {{"radiance", {0.1, 0.2, 0.3}}}).import().scene.ambientRadiance,
+              glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_THAT(with("LOBE_ambient", {{"radiance", {0.1, -0.2, 0.3}}}).refusal(),
+                HasSubstr("scenes[0].extensions.LOBE_ambient.radiance[1]: -0.2; expected"));
+}
+
+TEST(EnvironmentExtension, ConstantRadiance) {
+    const Scene scene =
+        with("LOBE_environment", {{"radiance", {1, 2, 3}}, {"background", false}}).import().scene;
+    ASSERT_TRUE(scene.environment.has_value());
+    EXPECT_EQ(scene.environment->image, -1);
+    EXPECT_EQ(scene.environment->radiance, glm::dvec3(1, 2, 3));
+    EXPECT_FALSE(scene.environment->background);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(EnvironmentExtension, ImageBesideTheScene) {
+    const TemporaryFolder folder;
+    folder.write("sky.hdr", "bytes");
+    Gltf gltf =
+        with("LOBE_environment", {{"image", "sky.hdr"}, {"intensity", 2}, {"rotation", {0, 1, 0, 0}}});
+    const Imported imported = importGltf(folder.write("scene.gltf", gltf.text()), {});
+    ASSERT_TRUE(imported.scene.environment.has_value());
+    const Environment& environment = *imported.scene.environment;
+    ASSERT_EQ(environment.image, 0);
+    EXPECT_EQ(imported.images.at(0).bytes.size(), 5U);
+    EXPECT_THAT(imported.images[0].name, HasSubstr("sky.hdr"));
+    EXPECT_EQ(environment.intensity, 2.0);
+    EXPECT_EQ(environment.worldFromMap * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1));
+    EXPECT_TRUE(environment.background);
+
+    folder.write("sky.hdr", "other");
+    EXPECT_NE(importGltf(folder.path() / "scene.gltf", {}).scene.contentHash, imported.scene.contentHash);
+}
+
+TEST(EnvironmentExtension, DamageIsRefused) {
+    EXPECT_THAT(with("LOBE_environment", json::object()).refusal(), HasSubstr("neither image nor radiance"));
+    EXPECT_THAT(with("LOBE_environment", {{"radiance", {1, 1, 1}}, {"image", "a.hdr"}}).refusal(),
+                HasSubstr("both image and radiance"));
+    EXPECT_THAT(with("LOBE_environment", {{"image", "../a.hdr"}}).refusal(), HasSubstr("../a.hdr"));
+    EXPECT_THAT(with("LOBE_environment", {{"image", "missing.hdr"}}).refusal(), HasSubstr("missing.hdr"));
+    EXPECT_THAT(with("LOBE_environment", {{"image", "data:,x"}, {"rotation", {0, 0, 0, 2}}}).refusal(),
+                HasSubstr("rotation: [0,0,0,2]; expected a unit quaternion"));
+}
+
+TEST(FogExtension, IsReadAndMayBeNone) {
+    const Scene scene =
+        with("LOBE_fog",
+             {{"extinction", {1, 2, 3}}, {"radiance", {4, 5, 6}}, {"heightFalloff", 7}, {"height", -8}})
+            .import()
+            .scene;
+    ASSERT_TRUE(scene.fog.has_value());
+    EXPECT_EQ(scene.fog->extinction, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.fog->radiance, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(scene.fog->heightFalloff, 7.0);
+    EXPECT_EQ(scene.fog->height, -8.0);
+    EXPECT_FALSE(with("LOBE_fog", {{"radiance", {1, 1, 1}}}).import().scene.fog.has_value());
+    EXPECT_THAT(with("LOBE_fog", {{"extinction", {-1, 0, 0}}}).refusal(), HasSubstr("extinction[0]: -1"));
+    EXPECT_THAT(with("LOBE_fog", {{"heightFalloff", -1}}).refusal(), HasSubstr("heightFalloff: -1"));
+}
+
+}  // namespace
+}  // namespace lobe::test
