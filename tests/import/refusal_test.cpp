@@ -96,7 +96,7 @@ TEST(Refusal, NamesPropertyValueAndExpectation) {
         {"/extensionsRequired",
          {"EXT_meshopt_compression"},
          "extensionsRequired[0]: EXT_meshopt_compression; expected none but those that are supported: "
-         "EXT_texture"},
+         "EXT_lights_area"},
         {"/materials",
          {{{"pbrMetallicRoughness", {{"roughnessFactor", 1.5}}}}},
          "materials[0].pbrMetallicRoughness.roughnessFactor: 1.5; expected a number in 0..1"},
