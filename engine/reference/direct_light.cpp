@@ -11,9 +11,9 @@
 namespace lobe::reference {
 
 const char* nameOf(Source source) {
-    static constexpr const char* kNames[kSources] = {"emission", "ambient",    "directional", "point",
-                                                     "spot",     "rect",       "disk",        "sphere",
-                                                     "tube",     "environment"};
+    static constexpr const char* kNames[kSources] = {"emission", "ambient",     "directional", "point",
+                                                     "spot",     "rect",        "disk",        "sphere",
+                                                     "tube",     "environment", "fog"};
     return kNames[static_cast<size_t>(source)];
 }
 
@@ -53,7 +53,7 @@ glm::dvec3 DirectLight::punctual(const ShadingPoint& point, const Visibility& vi
 /// What an ideal mirror shows: the nearest body that its ray meets, else the environment. Lights without
 /// extent are not to be seen, and light that other surfaces reflect is not direct.
 void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visible,
-                              std::array<glm::dvec3, kSources>& exact) const {
+                              Contributions& exact) const {
     if (!point.brdf->mirror) return;
     const glm::dvec3 normal = point.frame[2];
     const double cosine = glm::dot(normal, point.toEye);
@@ -82,7 +82,7 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
 
 std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& point,
                                                             const Visibility& visible, Pcg32& random,
-                                                            std::array<glm::dvec3, kSources>& exact) const {
+                                                            Contributions& exact) const {
     std::vector<std::unique_ptr<LightIntegral>> integrals;
     addMirrored(point, visible, exact);
     if (!point.brdf->traits.scattersLight) return integrals;

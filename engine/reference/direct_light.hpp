@@ -26,9 +26,12 @@ enum class Source : uint8_t {
     disk,
     sphere,
     tube,
-    environment
+    environment,
+    fog
 };
-inline constexpr size_t kSources = 10;
+inline constexpr size_t kSources = 11;
+/// Radiance by source.
+using Contributions = std::array<glm::dvec3, kSources>;
 /// "emission", "ambient", ...
 const char* nameOf(Source source);
 
@@ -85,13 +88,11 @@ public:
     /// shows); what has is returned, after its first refine(). `point`, its values and `visible` must live as
     /// long as the result.
     std::vector<std::unique_ptr<LightIntegral>> at(const ShadingPoint& point, const Visibility& visible,
-                                                   Pcg32& random,
-                                                   std::array<glm::dvec3, kSources>& exact) const;
+                                                   Pcg32& random, Contributions& exact) const;
 
 private:
     glm::dvec3 punctual(const ShadingPoint& point, const Visibility& visible, const Light& light) const;
-    void addMirrored(const ShadingPoint& point, const Visibility& visible,
-                     std::array<glm::dvec3, kSources>& exact) const;
+    void addMirrored(const ShadingPoint& point, const Visibility& visible, Contributions& exact) const;
     const Scene& scene_;
     const EnvironmentMap* environment_;
     Method method_;
