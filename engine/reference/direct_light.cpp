@@ -82,18 +82,20 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
 
 std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& point,
                                                             const Visibility& visible, Pcg32& random,
-                                                            Contributions& exact) const {
+                                                            Contributions& exact,
+                                                            double quadratureError) const {
     std::vector<std::unique_ptr<LightIntegral>> integrals;
+    const Scatterer scatterer{point, visible, random};
     addMirrored(point, visible, exact);
     if (!point.brdf->traits.scattersLight) return integrals;
     for (const Light& light : scene_.lights) {
         if (isPunctual(light.type))
             exact[static_cast<size_t>(sourceOf(light.type))] += punctual(point, visible, light);
-        else if (auto integral = bodyIntegral(point, visible, random, light, method_))
+        else if (auto integral = bodyIntegral(scatterer, light, method_, effort))
             integrals.push_back(std::move(integral));
     }
     if (environment_ != nullptr)
-        integrals.push_back(environmentIntegral(point, visible, random, *environment_));
+        integrals.push_back(environmentIntegral(scatterer, *environment_, effort));
     return integrals;
 }
 

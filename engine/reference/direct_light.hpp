@@ -59,23 +59,29 @@ struct Estimate {
 class LightIntegral {
 public:
     virtual ~LightIntegral() = default;
-    /// Four times as many samples as before, drawn anew.
-    virtual void refine() = 0;
+    /// Draws anew, with `factor` (1.2 to 4) times as many cells along each side of the strata; the first time with
+    /// those it was made for.
+    virtual void refine(double factor = 2.0) = 0;
+    /// That the estimate has cost.
+    virtual long long rays() const = 0;
     Source source() const { return source_; }
     const Estimate& estimate() const { return estimate_; }
-    /// Rays of the next refine().
-    long long nextRays() const { return nextRays_; }
 
 protected:
     explicit LightIntegral(Source source) : source_(source) {}
     Source source_;
     Estimate estimate_;
-    long long nextRays_ = 0;
 };
 
 /// How lights with a body are integrated: by quadrature wherever that is smooth, or, to check it, by sampling
 /// alone.
 enum class Method : uint8_t { automatic, sampled };
+
+/// How well lights are integrated at first.
+struct LightEffort {
+    int grid = 2;                   ///< strata: cells along each side of the square, in each independent part
+    double quadratureError = 1e-7;  ///< relative, wanted of smooth integrals
+};
 
 /// What a surface reflects of all lights of a scene.
 class DirectLight {
@@ -88,7 +94,8 @@ public:
     /// shows); what has is returned, after its first refine(). `point`, its values and `visible` must live as
     /// long as the result.
     std::vector<std::unique_ptr<LightIntegral>> at(const ShadingPoint& point, const Visibility& visible,
-                                                   Pcg32& random, Contributions& exact) const;
+                                                   Pcg32& random, Contributions& exact,
+                                                   const LightEffort& effort = {}) const;
 
 private:
     glm::dvec3 punctual(const ShadingPoint& point, const Visibility& visible, const Light& light) const;

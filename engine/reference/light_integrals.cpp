@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <list>
 
 #include "math/cubature.hpp"
 #include "reference/body_view.hpp"
-#include "reference/lobe_sampler.hpp"
 #include "reference/parts.hpp"
 #include "shading/punctual.hpp"
+#include "shading/sampling.hpp"
 
 namespace lobe::reference {
 namespace {
@@ -17,10 +18,33 @@ double sumOf(const glm::dvec3& v) {
     return v.x + v.y + v.z;
 }
 
+/// The sampler of a model with these values, made anew only where they change: between pixels they often do not.
+const BrdfSampler& samplerOf(const Brdf& brdf, std::span<const double> values) {
+    struct Entry {
+        const Brdf* brdf;
+        ParameterValues values;
+        BrdfSampler sampler;
+    };
+    constexpr size_t kKept = 16;
+    thread_local std::list<Entry> entries;
+    for (auto entry = entries.begin(); entry != entries.end(); ++entry)
+        if (entry->brdf == &brdf && std::equal(values.begin(), values.end(), entry->values.begin(), entry->values.end())) {
+            entries.splice(entries.begin(), entries, entry);
+            return entries.front().sampler;
+        }
+    entries.push_front({&brdf, ParameterValues(values.begin(), values.end()), BrdfSampler(brdf, values)});
+    if (entries.size() > kKept) entries.pop_back();
+    return entries.front().sampler;
+}
+
 /// Stratified draws in independent parts: `grid` x `grid` cells of the unit square each, one point a cell.
 class StratifiedIntegral : public LightIntegral {
 public:
-    void refine() final {
+    void refine(double factor) final {
+        if (drawn_)
+            grid_ = std::max(grid_ + 1, static_cast<int>(std::ceil(
+                                            grid_ * std::clamp(factor, kLeastGrowth, kMostGrowth))));
+        drawn_ = true;
         begin();
         for (size_t part = 0; part < kParts; ++part)
             for (int y = 0; y < grid_; ++y)
@@ -30,14 +54,14 @@ public:
                                           random_.uniform());
                     });
         estimate_ = finish(static_cast<double>(grid_) * grid_);
-        grid_ *= 2;
-        nextRays_ = static_cast<long long>(kParts) * grid_ * grid_ * raysEach_;
     }
+
+    long long rays() const final { return static_cast<long long>(kParts) * grid_ * grid_ * raysEach_; }
 
 protected:
     using Point = std::function<glm::dvec3()>;
-    StratifiedIntegral(Source source, const ShadingPoint& point, const Visibility& visible, Pcg32& random)
-        : LightIntegral(source), point_(point), visible_(visible), random_(random) {}
+    StratifiedIntegral(Source source, const Scatterer& at, int grid)
+        : LightIntegral(source), point_(at.point), visible_(at.visible), random_(at.random), grid_(grid) {}
     virtual void begin() = 0;
     virtual void sample(size_t part, const Point& next) = 0;
     virtual Estimate finish(double samplesEach) = 0;
@@ -45,8 +69,12 @@ protected:
     const ShadingPoint& point_;
     const Visibility& visible_;
     Pcg32& random_;
-    int grid_ = 2;
     int raysEach_ = 1;
+
+private:
+    static constexpr double kLeastGrowth = 1.2, kMostGrowth = 4.0;
+    int grid_;  ///< cells along each side of the square, in each part
+    bool drawn_ = false;
 };
 
 /// A body before a smooth lobe: what it lights unshadowed is known by quadrature, and draws find how much of
@@ -55,9 +83,9 @@ protected:
 /// nothing is visible.
 class ShadowedIntegral final : public StratifiedIntegral {
 public:
-    ShadowedIntegral(Source source, const ShadingPoint& point, const Visibility& visible, Pcg32& random,
-                     const BodyView& view, const glm::dvec3& radiance, const CubatureResult& unshadowed)
-        : StratifiedIntegral(source, point, visible, random),
+    ShadowedIntegral(Source source, const Scatterer& at, int grid, const BodyView& view,
+                     const glm::dvec3& radiance, const CubatureResult& unshadowed)
+        : StratifiedIntegral(source, at, grid),
           view_(view),
           radiance_(radiance),
           unshadowed_(unshadowed.integral),
@@ -124,12 +152,11 @@ private:
 template<class Lamp>
 class MixedIntegral final : public StratifiedIntegral {
 public:
-    MixedIntegral(Source source, const ShadingPoint& point, const Visibility& visible, Pcg32& random,
-                  Lamp lamp)
-        : StratifiedIntegral(source, point, visible, random),
+    MixedIntegral(Source source, const Scatterer& at, int grid, Lamp lamp)
+        : StratifiedIntegral(source, at, grid),
           lamp_(std::move(lamp)),
-          toLocal_(glm::transpose(point.frame)),
-          lobe_(*point.brdf, point.values, toLocal_ * point.toEye) {
+          toLocal_(glm::transpose(at.point.frame)),
+          lobe_(samplerOf(*at.point.brdf, at.point.values).at(toLocal_ * at.point.toEye)) {
         raysEach_ = 2;
     }
 
@@ -139,7 +166,7 @@ private:
     void sample(size_t part, const Point& next) override {
         const glm::dvec3 u = next(), v = next();
         add(part, lamp_.draw(u.x, u.y, u.z));
-        add(part, point_.frame * lobe_.draw(v.x, v.y, v.z));
+        add(part, point_.frame * sampleDirection(lobe_, v.z, v.x, v.y));
     }
 
     void add(size_t part, const glm::dvec3& direction) {
@@ -147,7 +174,7 @@ private:
         if (f == glm::dvec3(0.0)) return;
         const auto [radiance, distance] = lamp_.towards(direction);
         if (radiance == glm::dvec3(0.0)) return;
-        const double density = lamp_.density(direction) + lobe_.density(toLocal_ * direction);
+        const double density = lamp_.density(direction) + samplingDensity(lobe_, toLocal_ * direction);
         if (!(density > 0.0)) return;
         sums_[part] += f * radiance * (visible_(direction, distance) / density);
     }
@@ -161,7 +188,7 @@ private:
 
     Lamp lamp_;
     glm::dmat3 toLocal_;
-    LobeSampler lobe_;
+    SamplingMixture lobe_;
     Parts sums_{};
 };
 
@@ -185,20 +212,21 @@ struct EnvironmentLamp {
     }
 };
 
-/// Where the lobe changes by no more than this power of e over the light, a few cells of a quadrature see all
-/// of it.
-constexpr double kSmooth = 6.0;
-constexpr double kRelativeError = 1e-7;
+/// Where the lobe changes by no more than this power of e over the light, the cells of a quadrature see all of
+/// it; there is one more in each direction for every kCellSharpness of them.
+constexpr double kSmooth = 24.0;
+constexpr double kCellSharpness = 4.0;
 constexpr int kMostEvaluations = 20000;
 
-/// The light without shadows.
-CubatureResult unshadowed(const ShadingPoint& point, const BodyView& view, const glm::dvec3& radiance) {
+/// The light without shadows. `sharpness`: the power of e by which the lobe changes over the light.
+CubatureResult unshadowed(const ShadingPoint& point, const BodyView& view, const glm::dvec3& radiance,
+                          double sharpness, double relativeError) {
     CubatureResult sum;
     sum.converged = true;
     CubatureOptions options;
-    options.relativeError = kRelativeError;
+    options.relativeError = relativeError;
     options.evaluations = kMostEvaluations;
-    options.cells = 2;
+    options.cells = 2 + static_cast<int>(sharpness / kCellSharpness);
     for (int patch = 0; patch < view.patches(); ++patch) {
         const CubatureResult one = integrateSquare(
             [&](double u, double v) {
@@ -221,34 +249,34 @@ glm::dvec3 bodyRadiance(const Light& light, const glm::dvec3& point) {
     return radianceOf(light) * rangeWindow(glm::dot(toLight, toLight), light.range);
 }
 
-std::unique_ptr<LightIntegral> bodyIntegral(const ShadingPoint& point, const Visibility& visible,
-                                            Pcg32& random, const Light& light, Method method) {
+std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& light, Method method,
+                                            const LightEffort& effort) {
+    const ShadingPoint& point = at.point;
     const BodyView view(light, point.position);
     const glm::dvec3 radiance = bodyRadiance(light, point.position);
     if (view.patches() == 0 || radiance == glm::dvec3(0.0)) return nullptr;
     const Source source = sourceOf(light.type);
     std::unique_ptr<LightIntegral> integral;
-    const double sharpness = point.brdf->lobeSharpness ? point.brdf->lobeSharpness(point.values) : 0.0;
-    // Half vectors turn half as fast as directions do.
-    if (method == Method::automatic && sharpness * view.angularRadius() <= kSmooth) {
-        const CubatureResult all = unshadowed(point, view, radiance);
+    const double sharpness =
+        (point.brdf->lobeSharpness ? point.brdf->lobeSharpness(point.values) : 0.0) * view.angularRadius();
+    if (method == Method::automatic && sharpness <= kSmooth) {
+        const CubatureResult all = unshadowed(point, view, radiance, sharpness, effort.quadratureError);
         if (all.converged) {
             if (all.integral == glm::dvec3(0.0)) return nullptr;
-            integral =
-                std::make_unique<ShadowedIntegral>(source, point, visible, random, view, radiance, all);
+            integral = std::make_unique<ShadowedIntegral>(source, at, effort.grid, view, radiance, all);
         }
     }
     if (!integral)
-        integral = std::make_unique<MixedIntegral<BodyLamp>>(source, point, visible, random,
-                                                             BodyLamp{view, radiance});
+        integral =
+            std::make_unique<MixedIntegral<BodyLamp>>(source, at, effort.grid, BodyLamp{view, radiance});
     integral->refine();
     return integral;
 }
 
-std::unique_ptr<LightIntegral> environmentIntegral(const ShadingPoint& point, const Visibility& visible,
-                                                   Pcg32& random, const EnvironmentMap& environment) {
-    auto integral = std::make_unique<MixedIntegral<EnvironmentLamp>>(Source::environment, point, visible,
-                                                                     random, EnvironmentLamp{environment});
+std::unique_ptr<LightIntegral> environmentIntegral(const Scatterer& at, const EnvironmentMap& environment,
+                                                   const LightEffort& effort) {
+    auto integral = std::make_unique<MixedIntegral<EnvironmentLamp>>(Source::environment, at, effort.grid,
+                                                                     EnvironmentLamp{environment});
     integral->refine();
     return integral;
 }

@@ -15,11 +15,18 @@ glm::dvec3 reflected(const ShadingPoint& point, const glm::dvec3& direction);
 /// Radiance of a body as a point sees it, with the window of its range.
 glm::dvec3 bodyRadiance(const Light& light, const glm::dvec3& point);
 
-/// Null where the light shows nothing to the point.
-std::unique_ptr<LightIntegral> bodyIntegral(const ShadingPoint& point, const Visibility& visible,
-                                            Pcg32& random, const Light& light, Method method);
+/// Where light is reflected, and what is needed to find how much.
+struct Scatterer {
+    const ShadingPoint& point;
+    const Visibility& visible;
+    Pcg32& random;
+};
 
-std::unique_ptr<LightIntegral> environmentIntegral(const ShadingPoint& point, const Visibility& visible,
-                                                   Pcg32& random, const EnvironmentMap& environment);
+/// Null where the light shows nothing to the point.
+std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& light, Method method,
+                                            const LightEffort& effort);
+
+std::unique_ptr<LightIntegral> environmentIntegral(const Scatterer& at, const EnvironmentMap& environment,
+                                                   const LightEffort& effort);
 
 }  // namespace lobe::reference

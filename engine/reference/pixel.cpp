@@ -75,6 +75,8 @@ PixelTruth PixelIntegrator::at(int x, int y, const Effort& effort, uint64_t seed
 }
 
 PixelTruth PixelIntegrator::along(const PixelRay& ray, const Effort& effort, Pcg32& random) const {
+    // Far below what is wanted of the whole, as the estimate is far above the error of smooth integrals.
+    const double quadratureError = std::clamp(effort.relativeError / 20.0, 1e-8, 1e-3);
     PixelTruth truth;
     const double metres = glm::length(ray.direction);  // a unit of the ray
     const glm::dvec3 direction = ray.direction / metres;
@@ -111,7 +113,7 @@ PixelTruth PixelIntegrator::along(const PixelRay& ray, const Effort& effort, Pcg
             return options_.shadows ? tracer_.visibility(layer.surface, towards, distance) : 1.0;
         };
         Contributions exact{};
-        layer.integrals = lights_.at(layer.shading, layer.visible, random, exact);
+        layer.integrals = lights_.at(layer.shading, layer.visible, random, exact, quadratureError);
         for (size_t source = 0; source < kSources; ++source)
             truth.radiance[source] += weight * exact[source];
     }
