@@ -64,8 +64,8 @@ glm::dvec4 Mesh::vertexTangent(size_t vertex) const {
 
 glm::dvec3 Mesh::facetNormal(uint32_t triangle) const {
     const auto [a, b, c] = corners(triangle);
-    const glm::dvec3 normal = unitOrZero(glm::cross(unitOrZero(positions_[b] - positions_[a]),
-                                                    unitOrZero(positions_[c] - positions_[a])));
+    const glm::dvec3 normal = unitOrZero(
+        glm::cross(unitOrZero(positions_[b] - positions_[a]), unitOrZero(positions_[c] - positions_[a])));
     return mirrored_ ? -normal : normal;
 }
 

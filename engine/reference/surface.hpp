@@ -25,8 +25,8 @@ struct RayDifferentials {
     glm::dvec3 directionDx{0.0}, directionDy{0.0};
 };
 
-/// The ray through a point of the picture, in pixels as View counts them: centres at .5, the bottom row first.
-/// Its t is the distance along the view axis, from the near to the far plane.
+/// The ray through a point of the picture, in pixels as View counts them: centres at .5, the bottom row
+/// first. Its t is the distance along the view axis, from the near to the far plane.
 Ray pixelRay(const View& view, double x, double y);
 RayDifferentials pixelDifferentials(const View& view);
 

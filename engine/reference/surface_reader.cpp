@@ -40,9 +40,9 @@ struct SurfaceReader::Place {
         : mesh(surface), corners(surface.corners(hit.triangle)), weights(hit.weights), footprint(change) {}
 
     glm::dvec3 normal() const {
-        return interpolated({mesh.vertexNormal(corners[0]), mesh.vertexNormal(corners[1]),
-                             mesh.vertexNormal(corners[2])},
-                            weights);
+        return interpolated(
+            {mesh.vertexNormal(corners[0]), mesh.vertexNormal(corners[1]), mesh.vertexNormal(corners[2])},
+            weights);
     }
     glm::dvec4 tangent() const {
         glm::dvec4 sum(0.0);
@@ -137,8 +137,8 @@ double SurfaceReader::coverage(const Mesh& mesh, const Hit& hit, const Footprint
     const Material& material = materialOf(mesh);
     if (material.alphaMode == AlphaMode::opaque) return 1.0;
     const Place place(mesh, hit, footprint);
-    const double alpha = static_cast<double>(material.alpha) * sample(readingOf(mesh).alpha, place).a *
-                         place.color().a;
+    const double alpha =
+        static_cast<double>(material.alpha) * sample(readingOf(mesh).alpha, place).a * place.color().a;
     if (material.alphaMode == AlphaMode::mask)
         return alpha < static_cast<double>(material.alphaCutoff) ? 0.0 : 1.0;
     return std::clamp(alpha, 0.0, 1.0);
@@ -152,15 +152,14 @@ void SurfaceReader::readFrame(const Reading& reading, const Material& material, 
     if (reading.normal.slot != nullptr) {
         // MikkTSpace: normal, tangent and bitangent are used as interpolated, not made unit again.
         const double scale = static_cast<double>(material.normalScale);
-        const glm::dvec3 texel = (glm::dvec3(sample(reading.normal, place)) * 2.0 - 1.0) *
-                                 glm::dvec3(scale, scale, 1.0);
+        const glm::dvec3 texel =
+            (glm::dvec3(sample(reading.normal, place)) * 2.0 - 1.0) * glm::dvec3(scale, scale, 1.0);
         const glm::dvec3 t(tangent);
         n = t * texel.x + tangent.w * glm::cross(n, t) * texel.y + n * texel.z;
     }
     // Where normals cancel out: the engine's choice, which G-buffers make of no direction.
     n = glm::dot(n, n) > 0.0 ? glm::normalize(front ? n : -n) : glm::dvec3(0.0, 0.0, 1.0);
-    const glm::dmat3 frame =
-        reading.brdf->traits.usesTangent ? frameWithTangent(n, tangent) : frameAbout(n);
+    const glm::dmat3 frame = reading.brdf->traits.usesTangent ? frameWithTangent(n, tangent) : frameAbout(n);
     point.tangent = frame[0];
     point.bitangent = frame[1];
     point.normal = frame[2];
@@ -186,7 +185,8 @@ void SurfaceReader::readParameters(const Reading& reading, const Material& mater
         if (reading.parameters[p].slot == nullptr) continue;
         const glm::dvec4 texel = sample(reading.parameters[p], place);
         const bool rgb = brdf.parameters[p].kind == ParameterKind::rgb;
-        multiply(static_cast<int>(p), rgb ? glm::dvec3(texel) : glm::dvec3(texel[material.textureChannels[p]]));
+        multiply(static_cast<int>(p),
+                 rgb ? glm::dvec3(texel) : glm::dvec3(texel[material.textureChannels[p]]));
     }
     if (colored >= 0) multiply(colored, glm::dvec3(place.color()));
 }

@@ -1,4 +1,5 @@
-/// Materials at points of triangles: the engine's reading of surfaces, in double from the scene format's rules.
+/// Materials at points of triangles: the engine's reading of surfaces, in double from the scene format's
+/// rules.
 #pragma once
 
 #include <map>

@@ -101,9 +101,10 @@ glm::ivec2 TextureReader::size(int level) const {
 }
 
 double TextureReader::value(int level, int x, int y, int channel) const {
-    const size_t index = (static_cast<size_t>(y) * static_cast<size_t>(size(level).x) + static_cast<size_t>(x)) *
-                             static_cast<size_t>(bitmap_.channels) +
-                         static_cast<size_t>(channel);
+    const size_t index =
+        (static_cast<size_t>(y) * static_cast<size_t>(size(level).x) + static_cast<size_t>(x)) *
+            static_cast<size_t>(bitmap_.channels) +
+        static_cast<size_t>(channel);
     if (level > 0) return coarser_[static_cast<size_t>(level) - 1].values[index];
     const bool isAlpha = bitmap_.channels % 2 == 0 && channel == bitmap_.channels - 1;
     switch (bitmap_.type) {

@@ -22,8 +22,8 @@ public:
     glm::ivec2 size(int level) const;
     int levels() const { return static_cast<int>(coarser_.size()) + 1; }
 
-    /// Filtered value at uv (0, 0 = corner of the first row's first texel). `dx`, `dy`: change of uv from pixel
-    /// to pixel; zero = magnified.
+    /// Filtered value at uv (0, 0 = corner of the first row's first texel). `dx`, `dy`: change of uv from
+    /// pixel to pixel; zero = magnified.
     glm::dvec4 sample(const Sampler& sampler, const glm::dvec2& uv, const glm::dvec2& dx,
                       const glm::dvec2& dy) const;
 

@@ -17,8 +17,9 @@ constexpr double kRounding = 0x1p-53;  // of one operation in double
 
 float roundedDown(double value) {
     const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) <= value ? nearest
-                                                 : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+    return static_cast<double>(nearest) <= value
+               ? nearest
+               : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
 }
 
 float roundedUp(double value) {
@@ -83,8 +84,9 @@ struct Tracer::State {
 };
 
 /// Float copies of a ray differ from it by roundings of its origin, which is inside the scene's bounds once
-/// aim() is done, and of its direction, times the way through the bounds: 2^-24 (1 + 2 sqrt(3)) of the largest
-/// coordinate on each axis. Boxes that are larger by that hold every point that the exact ray has in them.
+/// aim() is done, and of its direction, times the way through the bounds: 2^-24 (1 + 2 sqrt(3)) of the
+/// largest coordinate on each axis. Boxes that are larger by that hold every point that the exact ray has in
+/// them.
 void Tracer::State::measure() {
     double magnitude = 0.0;
     bool any = false;
@@ -105,8 +107,8 @@ void Tracer::State::measure() {
     padding = 6.0 * kFloatRounding * radius;
     lower -= padding;
     upper += padding;
-    // Positions are rounded as sums in mesh.cpp (4 roundings), as means of three (4), in world coordinates (1)
-    // and back (1); the distance to a neighbour's plane is rounded 8 times. Twice that, as two meet.
+    // Positions are rounded as sums in mesh.cpp (4 roundings), as means of three (4), in world coordinates
+    // (1) and back (1); the distance to a neighbour's plane is rounded 8 times. Twice that, as two meet.
     offset = 36.0 * kRounding * magnitude;
 }
 
@@ -228,7 +230,8 @@ Tracer::Tracer(std::shared_ptr<const Scene> scene, const glm::dvec3& eye)
     for (uint32_t i = 0; i < given.instances.size(); ++i) {
         const Instance& instance = given.instances[i];
         state_->parts.push_back(
-            {state_.get(), i, Mesh(instance, given.primitives[static_cast<size_t>(instance.primitive)], eye)});
+            {state_.get(), i,
+             Mesh(instance, given.primitives[static_cast<size_t>(instance.primitive)], eye)});
     }
     state_->measure();
     state_->build();
