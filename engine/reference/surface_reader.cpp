@@ -177,9 +177,9 @@ void SurfaceReader::readParameters(const Reading& reading, const Material& mater
     }
     point.variedValues = material.values;
     const auto multiply = [&](int parameter, const glm::dvec3& factor) {
-        const int offset = brdf.valueOffset(parameter);
+        const auto offset = static_cast<size_t>(brdf.valueOffset(parameter));
         for (int c = 0; c < brdf.parameters[static_cast<size_t>(parameter)].components(); ++c)
-            point.variedValues[static_cast<size_t>(offset + c)] *= factor[c];
+            point.variedValues[offset + static_cast<size_t>(c)] *= factor[c];
     };
     for (size_t p = 0; p < reading.parameters.size(); ++p) {
         if (reading.parameters[p].slot == nullptr) continue;

@@ -19,6 +19,7 @@ constexpr int kWidth = 160, kHeight = 120;
 constexpr double kSubpixel = 1.0 / 256.0;
 constexpr double kFloat = 0x1p-24;
 
+constexpr int kFootprints = 7;
 constexpr double kUnknown = -1.0;
 
 using Layers = std::vector<SurfacePoint>;
@@ -26,6 +27,7 @@ using Layers = std::vector<SurfacePoint>;
 /// What a picture holds of a pixel, in the order of its channels.
 struct Seen {
     int material = 0;
+    std::pair<uint32_t, uint32_t> triangle;  ///< with its instance
     std::vector<double> values;
 };
 struct Quantity {
@@ -54,6 +56,7 @@ public:
         if (layers.empty() || layers.back().alphaMode == AlphaMode::blend) return seen;
         const SurfacePoint& point = layers.back();
         seen.material = point.material + 1;
+        seen.triangle = {point.instance, point.triangle};
         const auto put = [&seen](size_t first, const glm::dvec3& v) {
             for (int c = 0; c < 3; ++c)
                 seen.values[first + static_cast<size_t>(c)] = v[c];
@@ -71,6 +74,8 @@ public:
                               : point.values()[static_cast<size_t>(point.brdf->valueOffset(roughness))];
         return seen;
     }
+
+    bool textured() const { return !scene_->images.empty(); }
 
 private:
     View view_;
@@ -120,9 +125,14 @@ Counts compare(const Reference& reference, const Image& image) {
                 continue;
             }
             if (same.size() < places.size() || drawn == 0) continue;
+            const bool oneTriangle = std::all_of(same.begin(), same.end(), [&](const Seen& seen) {
+                return seen.triangle == same[0].triangle;
+            });
             // GL lets a footprint be from 1/sqrt(2) to 2 times the ideal one.
-            for (const double footprint : {0.7071, 0.8409, 1.1892, 1.4142, 2.0})
-                same.push_back(reference.at(places[0].x, places[0].y, footprint));
+            std::vector<Seen> scaled;
+            for (int step = 0; reference.textured() && step < kFootprints; ++step)
+                for (const glm::dvec2& place : places)
+                    scaled.push_back(reference.at(place.x, place.y, std::exp2(0.25 * step - 0.5)));
             ++counts.compared;
             for (const Quantity& quantity : kQuantities) {
                 const float* value = pixel + channelOf(image, quantity.channel);
@@ -131,18 +141,29 @@ Counts compare(const Reference& reference, const Image& image) {
                     const auto i = static_cast<size_t>(quantity.first + c);
                     double low = same[0].values[i], high = low;
                     if (low == kUnknown && i == 10) continue;
-                    for (const Seen& seen : same) {
-                        low = std::min(low, seen.values[i]);
-                        high = std::max(high, seen.values[i]);
-                    }
+                    const auto include = [&, i](const std::vector<Seen>& all) {
+                        for (const Seen& seen : all) {
+                            low = std::min(low, seen.values[i]);
+                            high = std::max(high, seen.values[i]);
+                        }
+                    };
+                    include(same);
+                    include(scaled);
+                    // Between two footprints values change linearly but for one bend, where a level is
+                    // reached: beyond both by no more than they change from one footprint to the next.
+                    double bend = 0.0;
+                    for (size_t n = places.size(); n < scaled.size(); ++n)
+                        bend = std::max(bend,
+                                        std::abs(scaled[n].values[i] - scaled[n - places.size()].values[i]));
                     // Places: a chain of a dozen float operations on numbers up to the distance, and the
                     // world coordinate's own rounding. Others: 32-bit G-buffer and texels.
                     const double rounding =
                         isPlace ? kFloat * (32.0 * same[0].values[0] + std::abs(low)) : 64.0 * kFloat;
-                    const double span = high - low;
                     const double off = std::max(
                         {low - static_cast<double>(value[c]), static_cast<double>(value[c]) - high, 0.0});
-                    const double bound = span + rounding;
+                    // Where a triangle ends this near, the rasteriser may draw it further than it reaches:
+                    // its values go on past those of its neighbour by as much as they change here.
+                    const double bound = rounding + bend + (oneTriangle ? 0.0 : high - low);
                     if (off / bound <= counts.largestShare) continue;
                     counts.largestShare = off / bound;
                     counts.worst = std::string(quantity.channel) + "+" + std::to_string(c) + " at " +
