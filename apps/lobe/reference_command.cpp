@@ -111,7 +111,7 @@ int referenceCommand(const std::vector<std::string>& list) {
     Meter meter(!r.quiet);
     const auto start = std::chrono::steady_clock::now();
     const reference::TruthResult truth = reference::computeTruth(
-        *scene, camera, request, earlier.values.empty() ? nullptr : &earlier, stopped,
+        scene, camera, request, earlier.values.empty() ? nullptr : &earlier, stopped,
         [&](const reference::TruthProgress& progress) {
             meter.show(progress.done, "to " + shortPercent(progress.relativeError));
         },

@@ -83,7 +83,7 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
 std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& point,
                                                             const Visibility& visible, Pcg32& random,
                                                             Contributions& exact,
-                                                            double quadratureError) const {
+                                                            const LightEffort& effort) const {
     std::vector<std::unique_ptr<LightIntegral>> integrals;
     const Scatterer scatterer{point, visible, random};
     addMirrored(point, visible, exact);
@@ -94,8 +94,7 @@ std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& 
         else if (auto integral = bodyIntegral(scatterer, light, method_, effort))
             integrals.push_back(std::move(integral));
     }
-    if (environment_ != nullptr)
-        integrals.push_back(environmentIntegral(scatterer, *environment_, effort));
+    if (environment_ != nullptr) integrals.push_back(environmentIntegral(scatterer, *environment_, effort));
     return integrals;
 }
 

@@ -59,8 +59,8 @@ struct Estimate {
 class LightIntegral {
 public:
     virtual ~LightIntegral() = default;
-    /// Draws anew, with `factor` (1.2 to 4) times as many cells along each side of the strata; the first time with
-    /// those it was made for.
+    /// Draws anew, with `factor` (1.2 to 4) times as many cells along each side of the strata; the first time
+    /// with those it was made for.
     virtual void refine(double factor = 2.0) = 0;
     /// That the estimate has cost.
     virtual long long rays() const = 0;

@@ -18,7 +18,8 @@ double sumOf(const glm::dvec3& v) {
     return v.x + v.y + v.z;
 }
 
-/// The sampler of a model with these values, made anew only where they change: between pixels they often do not.
+/// The sampler of a model with these values, made anew only where they change: between pixels they often do
+/// not.
 const BrdfSampler& samplerOf(const Brdf& brdf, std::span<const double> values) {
     struct Entry {
         const Brdf* brdf;
@@ -28,7 +29,8 @@ const BrdfSampler& samplerOf(const Brdf& brdf, std::span<const double> values) {
     constexpr size_t kKept = 16;
     thread_local std::list<Entry> entries;
     for (auto entry = entries.begin(); entry != entries.end(); ++entry)
-        if (entry->brdf == &brdf && std::equal(values.begin(), values.end(), entry->values.begin(), entry->values.end())) {
+        if (entry->brdf == &brdf &&
+            std::equal(values.begin(), values.end(), entry->values.begin(), entry->values.end())) {
             entries.splice(entries.begin(), entries, entry);
             return entries.front().sampler;
         }
@@ -42,8 +44,9 @@ class StratifiedIntegral : public LightIntegral {
 public:
     void refine(double factor) final {
         if (drawn_)
-            grid_ = std::max(grid_ + 1, static_cast<int>(std::ceil(
-                                            grid_ * std::clamp(factor, kLeastGrowth, kMostGrowth))));
+            grid_ =
+                std::max(grid_ + 1,
+                         static_cast<int>(std::ceil(grid_ * std::clamp(factor, kLeastGrowth, kMostGrowth))));
         drawn_ = true;
         begin();
         for (size_t part = 0; part < kParts; ++part)
@@ -212,8 +215,8 @@ struct EnvironmentLamp {
     }
 };
 
-/// Where the lobe changes by no more than this power of e over the light, the cells of a quadrature see all of
-/// it; there is one more in each direction for every kCellSharpness of them.
+/// Where the lobe changes by no more than this power of e over the light, the cells of a quadrature see all
+/// of it; there is one more in each direction for every kCellSharpness of them.
 constexpr double kSmooth = 24.0;
 constexpr double kCellSharpness = 4.0;
 constexpr int kMostEvaluations = 20000;
@@ -275,8 +278,8 @@ std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& li
 
 std::unique_ptr<LightIntegral> environmentIntegral(const Scatterer& at, const EnvironmentMap& environment,
                                                    const LightEffort& effort) {
-    auto integral = std::make_unique<MixedIntegral<EnvironmentLamp>>(Source::environment, at, effort.grid,
-                                                                     EnvironmentLamp{environment});
+    std::unique_ptr<LightIntegral> integral = std::make_unique<MixedIntegral<EnvironmentLamp>>(
+        Source::environment, at, effort.grid, EnvironmentLamp{environment});
     integral->refine();
     return integral;
 }

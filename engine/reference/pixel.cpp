@@ -13,10 +13,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool good(const glm::dvec3& mean, const glm::dvec3& variance, const Effort& effort) {
-    for (int c = 0; c < 3; ++c)
-        if (std::sqrt(variance[c]) > effort.relativeError * (mean[c] + effort.floor[c])) return false;
-    return true;
+/// The largest standard error of the channels, in units of what is wanted.
+double worstExcess(const glm::dvec3& mean, const glm::dvec3& variance, const Effort& effort) {
+    double worst = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        const double error = std::sqrt(variance[c]),
+                     wanted = effort.relativeError * (mean[c] + effort.floor[c]);
+        if (error > 0.0) worst = std::max(worst, wanted > 0.0 ? error / wanted : kInfinity);
+    }
+    return worst;
 }
 
 /// A surface's share of what the eye gets, and all that must live while its integrals do.
@@ -44,39 +49,32 @@ glm::dvec3 PixelTruth::total() const {
     return sum;
 }
 
-PixelIntegrator::PixelIntegrator(const Scene& scene, const Camera& camera, int width, int height,
-                                 const TruthOptions& options)
-    : scene_(scene),
-      camera_(camera),
+PixelIntegrator::PixelIntegrator(std::shared_ptr<const Scene> scene, const Camera& camera, int width,
+                                 int height, const TruthOptions& options)
+    : kept_(std::move(scene)),
+      scene_(*kept_),
       view_(makeView(camera, width, height)),
       options_(options),
-      tracer_(scene, view_.eye),
-      environment_(environmentOf(scene)),
-      lights_(scene, environment_ ? &*environment_ : nullptr, options.method) {}
-
-PixelRay PixelIntegrator::rayThrough(const glm::dvec2& place) const {
-    const auto ray = [&](double x, double y) {
-        return Ray{view_.eye + view_.rayOrigin + x * view_.rayOriginDx + y * view_.rayOriginDy,
-                   view_.rayDirection + x * view_.rayDirectionDx + y * view_.rayDirectionDy};
-    };
-    PixelRay result;
-    static_cast<Ray&>(result) = ray(place.x, place.y);
-    result.dx = ray(place.x + 1.0, place.y);
-    result.dy = ray(place.x, place.y + 1.0);
-    return result;
-}
+      tracer_(kept_, view_.eye),
+      differentials_(pixelDifferentials(view_)),
+      environment_(environmentOf(scene_)),
+      lights_(scene_, environment_ ? &*environment_ : nullptr, options.method) {}
 
 PixelTruth PixelIntegrator::at(int x, int y, const Effort& effort, uint64_t seed) const {
     const auto pixel =
         static_cast<uint64_t>(y) * static_cast<uint64_t>(view_.width) + static_cast<uint64_t>(x);
     Pcg32 random(seed, pixel);
     if (options_.filter == PixelFilter::box) return overPixel(x, y, effort, random);
-    return along(rayThrough({x + 0.5, view_.height - y - 0.5}), effort, random);
+    return along(pixelRay(view_, x + 0.5, view_.height - y - 0.5), effort, random);
 }
 
-PixelTruth PixelIntegrator::along(const PixelRay& ray, const Effort& effort, Pcg32& random) const {
+PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& random) const {
+    LightEffort first;
     // Far below what is wanted of the whole, as the estimate is far above the error of smooth integrals.
-    const double quadratureError = std::clamp(effort.relativeError / 20.0, 1e-8, 1e-3);
+    first.quadratureError = std::clamp(effort.relativeError / 20.0, 1e-8, 1e-3);
+    // What blocks half as much light as the error wanted is met by a ray.
+    first.grid =
+        std::clamp(static_cast<int>(std::ceil(std::sqrt(0.5 / effort.relativeError / kParts))), 1, 64);
     PixelTruth truth;
     const double metres = glm::length(ray.direction);  // a unit of the ray
     const glm::dvec3 direction = ray.direction / metres;
@@ -88,32 +86,33 @@ PixelTruth PixelIntegrator::along(const PixelRay& ray, const Effort& effort, Pcg
         truth.radiance[static_cast<size_t>(Source::fog)] += share * (1.0 - clear) * scene_.fog->radiance;
         return share * clear;
     };
-    for (SurfacePoint& surface :
-         tracer_.surfacesAlong(ray, camera_.zNear, camera_.zFar.value_or(kInfinity))) {
-        const glm::dvec3 way = surface.position - ray.origin;
+    std::vector<SurfacePoint> surfaces;
+    tracer_.surfacesAlong(ray, &differentials_, surfaces);
+    for (SurfacePoint& surface : surfaces) {
         if (truth.material == 0) {
-            truth.depth = glm::dot(surface.position - view_.eye, view_.forward);
-            truth.normal = surface.brdf == nullptr ? surface.geometricNormal : surface.frame[2];
+            truth.depth = surface.t;
+            truth.normal = surface.brdf == nullptr ? surface.geometricNormal : surface.normal;
             truth.material = surface.material + 1;
         }
-        const glm::dvec3 weight = addFog(remaining * surface.alpha, glm::length(way));
+        const glm::dvec3 weight = addFog(remaining * surface.alpha, surface.distance);
         remaining *= 1.0 - surface.alpha;
         truth.radiance[static_cast<size_t>(Source::emission)] += weight * surface.emission;
         if (surface.brdf == nullptr) continue;
         truth.radiance[static_cast<size_t>(Source::ambient)] +=
-            weight * surface.brdf->ambient(surface.values) *
+            weight * surface.brdf->ambient(surface.values()) *
             scene_.ambientRadiance.value_or(glm::dvec3(0.0)) * surface.occlusion;
         Layer& layer = layers.emplace_back();
         layer.surface = std::move(surface);
         layer.weight = weight;
-        layer.shading = {layer.surface.position, layer.surface.frame, -direction, layer.surface.brdf,
-                         layer.surface.values};
+        const SurfacePoint& point = layer.surface;
+        layer.shading = {point.position, glm::dmat3(point.tangent, point.bitangent, point.normal), -direction,
+                         point.brdf, point.values()};
         layer.visible = [this, &layer, &truth](const glm::dvec3& towards, double distance) {
             ++truth.rays;
             return options_.shadows ? tracer_.visibility(layer.surface, towards, distance) : 1.0;
         };
         Contributions exact{};
-        layer.integrals = lights_.at(layer.shading, layer.visible, random, exact, quadratureError);
+        layer.integrals = lights_.at(layer.shading, layer.visible, random, exact, first);
         for (size_t source = 0; source < kSources; ++source)
             truth.radiance[source] += weight * exact[source];
     }
@@ -129,24 +128,23 @@ PixelTruth PixelIntegrator::along(const PixelRay& ray, const Effort& effort, Pcg
     for (;;) {
         glm::dvec3 mean = exact;
         truth.variance = glm::dvec3(0.0);
-        double worst = -1.0;
+        double worst = 0.0;
         LightIntegral* next = nullptr;
         for (const Layer& layer : layers)
             for (const auto& integral : layer.integrals) {
                 const glm::dvec3 variance = layer.weight * layer.weight * integral->estimate().variance;
                 mean += layer.weight * integral->estimate().mean;
                 truth.variance += variance;
-                // What blocks less than the error wanted may have been missed by so few rays.
-                const bool few = integral->nextRays() <= 1.0 / effort.relativeError;
-                const double size = few ? kInfinity : variance.x + variance.y + variance.z;
-                if (size > worst) {
+                if (const double size = variance.x + variance.y + variance.z; size > worst) {
                     worst = size;
                     next = integral.get();
                 }
             }
-        const bool enough = good(mean, truth.variance, effort) && worst < kInfinity;
-        if (next == nullptr || enough || truth.rays + next->nextRays() > effort.mostRays) break;
-        next->refine();
+        const double excess = worstExcess(mean, truth.variance, effort);
+        if (next == nullptr || excess <= 1.0 || truth.rays + next->rays() > effort.mostRays) break;
+        // The error of stratified draws falls with the side of their cells to the power of 3/2 at the least
+        // where shadows' edges make it; a little more, so as not to miss by a little.
+        next->refine(1.1 * std::pow(excess, 2.0 / 3.0));
     }
     for (const Layer& layer : layers)
         for (const auto& integral : layer.integrals)
@@ -169,7 +167,7 @@ PixelTruth PixelIntegrator::overPixel(int x, int y, const Effort& effort, Pcg32&
                 for (int column = 0; column < grid; ++column) {
                     const glm::dvec2 place(x + (column + random.uniform()) / grid,
                                            view_.height - y - (row + random.uniform()) / grid);
-                    const PixelTruth sample = along(rayThrough(place), once, random);
+                    const PixelTruth sample = along(pixelRay(view_, place.x, place.y), once, random);
                     rays += sample.rays + 1;
                     coverage[part] += share * sample.coverage;
                     for (size_t source = 0; source < kSources; ++source)
@@ -189,10 +187,11 @@ PixelTruth PixelIntegrator::overPixel(int x, int y, const Effort& effort, Pcg32&
         truth.rays = rays;
         // A small thing may have been missed by so few rays.
         const bool few = kParts * static_cast<double>(grid) * grid < 0.5 / effort.relativeError;
-        if ((!few && good(truth.total(), truth.variance, effort)) || rays * 4 > effort.mostRays) break;
+        if ((!few && worstExcess(truth.total(), truth.variance, effort) <= 1.0) || rays * 4 > effort.mostRays)
+            break;
     }
     Pcg32 unused(0);
-    const PixelTruth middle = along(rayThrough({x + 0.5, view_.height - y - 0.5}), once, unused);
+    const PixelTruth middle = along(pixelRay(view_, x + 0.5, view_.height - y - 0.5), once, unused);
     truth.depth = middle.depth;
     truth.normal = middle.normal;
     truth.material = middle.material;

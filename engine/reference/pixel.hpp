@@ -42,8 +42,7 @@ struct PixelTruth {
 /// One for any number of threads.
 class PixelIntegrator {
 public:
-    /// The scene must outlive it.
-    PixelIntegrator(const Scene& scene, const Camera& camera, int width, int height,
+    PixelIntegrator(std::shared_ptr<const Scene> scene, const Camera& camera, int width, int height,
                     const TruthOptions& options);
 
     /// Pixel (x, y), row 0 at the top. Equal seeds give equal results; different ones independent ones.
@@ -52,17 +51,17 @@ public:
     const View& view() const { return view_; }
     const Tracer& tracer() const { return tracer_; }
     const EnvironmentMap* environment() const { return environment_ ? &*environment_ : nullptr; }
-    PixelRay rayThrough(const glm::dvec2& place) const;
 
 private:
-    PixelTruth along(const PixelRay& ray, const Effort& effort, Pcg32& random) const;
+    PixelTruth along(const Ray& ray, const Effort& effort, Pcg32& random) const;
     PixelTruth overPixel(int x, int y, const Effort& effort, Pcg32& random) const;
 
+    std::shared_ptr<const Scene> kept_;
     const Scene& scene_;
-    Camera camera_;
     View view_;
     TruthOptions options_;
     Tracer tracer_;
+    RayDifferentials differentials_;
     std::optional<EnvironmentMap> environment_;
     DirectLight lights_;
 };

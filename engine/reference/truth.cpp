@@ -39,13 +39,13 @@ float stored(double value) {
 
 class TruthRun {
 public:
-    TruthRun(const Scene& scene, const Camera& camera, const TruthRequest& request, const Image* earlier,
-             const std::atomic<bool>& stop)
+    TruthRun(const std::shared_ptr<const Scene>& scene, const Camera& camera, const TruthRequest& request,
+             const Image* earlier, const std::atomic<bool>& stop)
         : request_(request),
           stop_(stop),
-          sources_(sourcesOf(scene)),
+          sources_(sourcesOf(*scene)),
           integrator_(scene, camera, request.width, request.height, request.options),
-          image_(request.width, request.height, truthChannels(scene)),
+          image_(request.width, request.height, truthChannels(*scene)),
           reached_(image_.pixelCount(), std::numeric_limits<double>::infinity()) {
         if (earlier != nullptr && earlier->channels == image_.channels && earlier->width == image_.width &&
             earlier->height == image_.height) {
@@ -223,11 +223,11 @@ std::vector<std::string> truthChannels(const Scene& scene) {
     return channels;
 }
 
-TruthResult computeTruth(const Scene& scene, const Camera& camera, const TruthRequest& request,
-                         const Image* earlier, const std::atomic<bool>& stop,
+TruthResult computeTruth(std::shared_ptr<const Scene> scene, const Camera& camera,
+                         const TruthRequest& request, const Image* earlier, const std::atomic<bool>& stop,
                          const std::function<void(const TruthProgress&)>& progress,
                          const std::function<void(const Image&)>& checkpoint) {
-    return TruthRun(scene, camera, request, earlier, stop).run(progress, checkpoint);
+    return TruthRun(std::move(scene), camera, request, earlier, stop).run(progress, checkpoint);
 }
 
 }  // namespace lobe::reference

@@ -38,8 +38,8 @@ struct TruthResult {
 /// Rounds of less and less error, in tiles, on all cores. A picture that an earlier call gave is gone on with
 /// where it is not good enough yet. Pixels are the same whatever the number of threads, but for `seconds`.
 /// Once `stop` is set the call returns what it has. `checkpoint`, every half minute, gets what is there.
-TruthResult computeTruth(const Scene& scene, const Camera& camera, const TruthRequest& request,
-                         const Image* earlier, const std::atomic<bool>& stop,
+TruthResult computeTruth(std::shared_ptr<const Scene> scene, const Camera& camera,
+                         const TruthRequest& request, const Image* earlier, const std::atomic<bool>& stop,
                          const std::function<void(const TruthProgress&)>& progress,
                          const std::function<void(const Image&)>& checkpoint);
 
