@@ -40,7 +40,7 @@ constexpr std::array kQuantities{Quantity{"depth.Z", 0, 1}, Quantity{"position.X
 
 class Reference {
 public:
-    Reference(std::shared_ptr<const Scene> scene, const View& view)
+    Reference(const std::shared_ptr<const Scene>& scene, const View& view)
         : view_(view), scene_(scene), tracer_(scene, view.eye) {}
 
     /// The first surface that writes depth at a point of the picture; textures at `footprint` times the
@@ -138,7 +138,7 @@ Counts compare(const Reference& reference, const Image& image) {
                 const float* value = pixel + channelOf(image, quantity.channel);
                 const bool isPlace = quantity.first < 4;
                 for (int c = 0; c < quantity.count; ++c) {
-                    const auto i = static_cast<size_t>(quantity.first + c);
+                    const size_t i = static_cast<size_t>(quantity.first) + static_cast<size_t>(c);
                     double low = same[0].values[i], high = low;
                     if (low == kUnknown && i == 10) continue;
                     const auto include = [&, i](const std::vector<Seen>& all) {

@@ -84,8 +84,8 @@ TEST(Surface, TexturesAndVertexColoursAreMultipliedIn) {
     material.textureChannels[roughness] = 1;
     scene.primitives[0].colors.assign(4, glm::vec4(0.5f, 1.0f, 0.25f, 0.5f));
     const SurfacePoint point = seen(scene);
-    const auto value = [&](const char* name, int c) {
-        return point.values()[static_cast<size_t>(brdf.valueOffset(brdf.parameterIndex(name)) + c)];
+    const auto value = [&](const char* name, size_t c) {
+        return point.values()[static_cast<size_t>(brdf.valueOffset(brdf.parameterIndex(name))) + c];
     };
     EXPECT_EQ(point.constantValues, nullptr);
     EXPECT_NEAR(value("roughness", 0), 0.5 * 0.2, 1e-15);
