@@ -186,10 +186,10 @@ BodySample BodyView::rectAt(double u, double v) const {
     const double z0 = center_.z;
     const double angle = u * solidAngle_ + k_;
     const double fu = (std::cos(angle) * b0_ - b1_) / std::sin(angle);
-    const double cu = std::clamp(std::copysign(1.0, fu) / std::hypot(fu, b0_), -1.0, 1.0);
+    const double cu = std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + b0_ * b0_), -1.0, 1.0);
     const double x = std::clamp(-(cu * z0) / std::sqrt(std::max(1.0 - cu * cu, 1e-300)), x0, x1);
-    const double d = std::hypot(x, z0);
-    const double h0 = y0 / std::hypot(d, y0), h1 = y1 / std::hypot(d, y1);
+    const double d = std::sqrt(x * x + z0 * z0);
+    const double h0 = y0 / std::sqrt(d * d + y0 * y0), h1 = y1 / std::sqrt(d * d + y1 * y1);
     const double h = h0 + v * (h1 - h0);
     const double y = std::clamp(h * d / std::sqrt(std::max(1.0 - h * h, 1e-300)), y0, y1);
     const glm::dvec3 target(x, y, z0);
