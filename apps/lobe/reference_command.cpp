@@ -36,7 +36,7 @@ void addOptions(CLI::App& app, ReferenceArguments& r) {
     app.add_option("scene", r.inputs, "glTF scene; - is standard input")->type_name("SCENE");
     app.add_option(
            "--error", r.error,
-           "standard error wanted of each pixel, as a share of its radiance and a tenth of the mean [0.002]")
+           "standard error wanted of each pixel, as a share of its radiance and half the mean [0.002]")
         ->type_name("SHARE")
         ->check(CLI::Range(1e-6, 1.0));
     app.add_option("--time-limit", r.seconds, "stop after so long, with what was reached by then, s")

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <list>
+#include <numbers>
 
 #include "math/cubature.hpp"
 #include "reference/body_view.hpp"
@@ -219,17 +220,25 @@ struct EnvironmentLamp {
 /// of it; there is one more in each direction for every kCellSharpness of them.
 constexpr double kSmooth = 24.0;
 constexpr double kCellSharpness = 4.0;
+constexpr int kCellsAtHorizon = 8;
 constexpr int kMostEvaluations = 20000;
 
 /// The light without shadows. `sharpness`: the power of e by which the lobe changes over the light.
-CubatureResult unshadowed(const ShadingPoint& point, const BodyView& view, const glm::dvec3& radiance,
-                          double sharpness, double relativeError) {
+CubatureResult unshadowed(const ShadingPoint& point, const Light& light, const BodyView& view,
+                          const glm::dvec3& radiance, double sharpness, double relativeError) {
     CubatureResult sum;
     sum.converged = true;
     CubatureOptions options;
     options.relativeError = relativeError;
     options.evaluations = kMostEvaluations;
     options.cells = 2 + static_cast<int>(sharpness / kCellSharpness);
+    // Where the horizon cuts the light, the sliver beyond the outermost points of a cell is not seen: small
+    // cells keep it below a millionth.
+    const glm::dvec3 toLight = light.position - point.position;
+    const double height = glm::dot(toLight, point.frame[2]), distance = glm::length(toLight);
+    if (std::abs(height) < distance * std::sin(std::min(view.angularRadius(), std::numbers::pi / 2)) ||
+        view.angularRadius() >= std::numbers::pi / 2)
+        options.cells = std::max(options.cells, kCellsAtHorizon);
     for (int patch = 0; patch < view.patches(); ++patch) {
         const CubatureResult one = integrateSquare(
             [&](double u, double v) {
@@ -263,7 +272,8 @@ std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& li
     const double sharpness =
         (point.brdf->lobeSharpness ? point.brdf->lobeSharpness(point.values) : 0.0) * view.angularRadius();
     if (method == Method::automatic && sharpness <= kSmooth) {
-        const CubatureResult all = unshadowed(point, view, radiance, sharpness, effort.quadratureError);
+        const CubatureResult all =
+            unshadowed(point, light, view, radiance, sharpness, effort.quadratureError);
         if (all.converged) {
             if (all.integral == glm::dvec3(0.0)) return nullptr;
             integral = std::make_unique<ShadowedIntegral>(source, at, effort.grid, view, radiance, all);

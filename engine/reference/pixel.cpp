@@ -72,9 +72,9 @@ PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& r
     LightEffort first;
     // Far below what is wanted of the whole, as the estimate is far above the error of smooth integrals.
     first.quadratureError = std::clamp(effort.relativeError / 20.0, 1e-8, 1e-3);
-    // What blocks half as much light as the error wanted is met by a ray.
+    // What blocks four times as much light as the error wanted is met by a ray on average.
     first.grid =
-        std::clamp(static_cast<int>(std::ceil(std::sqrt(0.5 / effort.relativeError / kParts))), 1, 64);
+        std::clamp(static_cast<int>(std::ceil(std::sqrt(0.25 / effort.relativeError / kParts))), 1, 64);
     PixelTruth truth;
     const double metres = glm::length(ray.direction);  // a unit of the ray
     const glm::dvec3 direction = ray.direction / metres;

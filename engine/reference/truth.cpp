@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTile = 16;
-constexpr double kFloorShare = 0.1;  ///< of the mean radiance
+constexpr double kFloorShare = 0.5;  ///< of the mean radiance
 constexpr size_t kColor = 0, kError = 4, kSourcesAt = 7;
 
 /// Sources that a scene can have, so that a picture holds no layer that is black for certain.

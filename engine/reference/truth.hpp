@@ -14,7 +14,7 @@ struct TruthRequest {
     int width = 1280, height = 720;
     TruthOptions options;
     double relativeError =
-        0.002;  ///< standard error wanted of each pixel, of its radiance and a tenth of the mean
+        0.002;  ///< standard error wanted of each pixel, of its radiance and half the mean
     std::optional<double> seconds;  ///< stop when they are over, with what was reached by then
     long long mostRays = 1 << 22;   ///< a pixel, beyond which it is left as it is
     unsigned threads = 0;           ///< 0: one a core
@@ -29,7 +29,7 @@ struct TruthResult {
     /// R G B A; error.R G B: standard errors; emission.R ... fog.R G B: radiance by source, of those that the
     /// scene has; depth.Z, normal.X Y Z, material.id of the nearest surface at the pixel's centre.
     Image image;
-    /// Root mean square over pixels of standard error / (radiance + a tenth of the mean radiance).
+    /// Root mean square over pixels of standard error / (radiance + half the mean radiance).
     double relativeError = 0.0;
     size_t unfinished = 0;  ///< pixels that are not as good as wanted
     size_t badTexels = 0;   ///< of the environment
