@@ -12,9 +12,8 @@ namespace lobe {
 std::filesystem::path shaderDirectory();
 
 /// The folder of the parts of report.html: frame, style, scripts, chart library. Looked for in:
-/// $LOBE_PAGE_DIR;
-/// ../share/lobe/page beside the running program; the package; the folder it was installed to; the build
-/// tree. Throws InputError as above.
+/// $LOBE_PAGE_DIR; ../share/lobe/page beside the running program; the package; the folder it was installed
+/// to; the build tree. Throws InputError as above.
 std::filesystem::path pageDirectory();
 
 /// A helper program (NAME without folder). Looked for in: $LOBE_WORKER_DIR; beside the running program;
