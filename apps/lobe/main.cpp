@@ -18,6 +18,7 @@ constexpr const char* kUsage =
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
     "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
+    "  explain SCENE --pixel X,Y            surface, lights and terms behind one pixel, and a test of it\n"
     "  compare A B                          how far picture A is from B, the truth\n"
     "  info                                 OpenGL contexts that can be made here\n"
     "  help [COMMAND]                       every setting, or a command's options\n"
@@ -27,7 +28,8 @@ constexpr const char* kUsage =
 int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {
         {"render", lobe::app::renderCommand},   {"reference", lobe::app::referenceCommand},
-        {"compare", lobe::app::compareCommand}, {"plan", lobe::app::planCommand},
+        {"compare", lobe::app::compareCommand}, {"explain", lobe::app::explainCommand},
+        {"plan", lobe::app::planCommand},
         {"models", lobe::app::modelsCommand},   {"plot", lobe::app::plotCommand},
         {"info", lobe::app::infoCommand},       {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];

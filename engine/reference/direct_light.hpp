@@ -34,6 +34,7 @@ inline constexpr size_t kSources = 11;
 using Contributions = std::array<glm::dvec3, kSources>;
 /// "emission", "ambient", ...
 const char* nameOf(Source source);
+Source sourceOf(LightType type);
 
 /// A point of a surface. Columns of `frame`: tangent, bitangent, shading normal, in world axes.
 struct ShadingPoint {

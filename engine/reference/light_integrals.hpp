@@ -7,8 +7,6 @@
 
 namespace lobe::reference {
 
-Source sourceOf(LightType type);
-
 /// f_r cos towards the eye for light from a direction, 1/sr; 0 below the horizon.
 glm::dvec3 reflected(const ShadingPoint& point, const glm::dvec3& direction);
 

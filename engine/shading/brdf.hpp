@@ -87,6 +87,12 @@ struct Directions {
         : wi(toLight), wo(toEye), h(toLight + toEye) {}
 };
 
+/// A named term of a model's formula: "D", "F", "G".
+struct BrdfFactor {
+    std::string name;
+    glm::dvec3 value;
+};
+
 struct BrdfTraits {
     bool reciprocal = true;
     bool energyConserving = true;  ///< directional albedo at most 1 over the whole parameter range
@@ -117,6 +123,10 @@ struct Brdf {
     /// Sum of the absolute values of the terms of fCos, where some of them are negative: each has roundings
     /// of its own, however small the sum. Absent: fCos.
     std::function<glm::dvec3(const Directions&, std::span<const double>)> termSizes;
+
+    /// The terms that the formula's lobe is a product of, as the paper names them, for people to look at.
+    /// Both directions are above the surface. Absent where a model has no such terms.
+    std::function<std::vector<BrdfFactor>(const Directions&, std::span<const double>)> factors;
 
     /// The factor k_a that multiplies LOBE_ambient's radiance: the twin of NAME_ambient in GLSL.
     std::function<glm::dvec3(std::span<const double>)> ambient;

@@ -19,6 +19,13 @@ glm::dvec3 microfacetFCos(const Directions& d, std::span<const double> values, d
     return (rgbAt(values, 0) / glm::pi<double>() + rgbAt(values, 3) * fresnel * lobe) * d.wi.z;
 }
 
+std::vector<BrdfFactor> microfacetFactors(const Directions& d, std::span<const double> values,
+                                          double distribution, double masking) {
+    return {{"D", glm::dvec3(distribution)},
+            {"F", fresnelReflectance(values.last(kFresnelValues), d)},
+            {"G", glm::dvec3(masking)}};
+}
+
 glm::dvec3 microfacetAmbient(std::span<const double> values) {
     return rgbAt(values, 0) + rgbAt(values, 3) * fresnelReflectance(values.last(kFresnelValues), 1.0);
 }

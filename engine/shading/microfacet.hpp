@@ -12,6 +12,10 @@ std::vector<Parameter> microfacetParameters(std::vector<Parameter> lobe);
 /// k_d / pi + k_s F lobe for `lobe` = D G / (4 cos cos), times cos(theta_i).
 glm::dvec3 microfacetFCos(const Directions& d, std::span<const double> values, double lobe);
 
+/// D and G as given, and F: the lobe is their product over 4 cos cos.
+std::vector<BrdfFactor> microfacetFactors(const Directions& d, std::span<const double> values,
+                                          double distribution, double masking);
+
 /// k_d + k_s F at normal incidence.
 glm::dvec3 microfacetAmbient(std::span<const double> values);
 

@@ -18,11 +18,14 @@ double lambda(const glm::dvec3& w, double m) {
     return (std::exp(-x * x) / (x * std::sqrt(glm::pi<double>())) - std::erfc(x)) / 2.0;
 }
 
-double lobe(const Directions& d, double m, bool separable) {
+double masking(const Directions& d, double m, bool separable) {
     const double i = lambda(d.wi, m);
     const double o = lambda(d.wo, m);
-    const double masking = separable ? 1.0 / ((1.0 + i) * (1.0 + o)) : 1.0 / (1.0 + i + o);
-    return shading::beckmann(glm::normalize(d.h), m) * masking / (4.0 * d.wi.z * d.wo.z);
+    return separable ? 1.0 / ((1.0 + i) * (1.0 + o)) : 1.0 / (1.0 + i + o);
+}
+
+double lobe(const Directions& d, double m, bool separable) {
+    return shading::beckmann(glm::normalize(d.h), m) * masking(d, m, separable) / (4.0 * d.wi.z * d.wo.z);
 }
 
 }  // namespace
@@ -47,6 +50,10 @@ Brdf beckmann_smith() {
     brdf.fCos = [](const Directions& d, std::span<const double> values) {
         return aboveSurface(d) ? microfacetFCos(d, values, lobe(d, values[6], values[7] == 1.0))
                                : glm::dvec3(0.0);
+    };
+    brdf.factors = [](const Directions& d, std::span<const double> values) {
+        return microfacetFactors(d, values, beckmann(glm::normalize(d.h), values[6]),
+                                 masking(d, values[6], values[7] == 1.0));
     };
     brdf.ambient = microfacetAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {

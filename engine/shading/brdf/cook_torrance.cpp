@@ -9,12 +9,15 @@ namespace {
 
 constexpr double kMinSlope = 1e-5;
 
-/// D G / (4 cos cos); the factor 4 belongs to the normalised D (docs/models/cook_torrance.md).
-double lobe(const Directions& d, double m) {
+double masking(const Directions& d) {
     const glm::dvec3 h = glm::normalize(d.h);
     const double vh = 0.5 * glm::length(d.h);
-    const double masking = std::min({1.0, 2.0 * h.z * d.wo.z / vh, 2.0 * h.z * d.wi.z / vh});
-    return shading::beckmann(h, m) * masking / (4.0 * d.wi.z * d.wo.z);
+    return std::min({1.0, 2.0 * h.z * d.wo.z / vh, 2.0 * h.z * d.wi.z / vh});
+}
+
+/// D G / (4 cos cos); the factor 4 belongs to the normalised D (docs/models/cook_torrance.md).
+double lobe(const Directions& d, double m) {
+    return shading::beckmann(glm::normalize(d.h), m) * masking(d) / (4.0 * d.wi.z * d.wo.z);
 }
 
 }  // namespace
@@ -36,6 +39,9 @@ Brdf cook_torrance() {
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = [](const Directions& d, std::span<const double> values) {
         return aboveSurface(d) ? microfacetFCos(d, values, lobe(d, values[6])) : glm::dvec3(0.0);
+    };
+    brdf.factors = [](const Directions& d, std::span<const double> values) {
+        return microfacetFactors(d, values, beckmann(glm::normalize(d.h), values[6]), masking(d));
     };
     brdf.ambient = microfacetAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {

@@ -31,9 +31,16 @@ double lambda(const glm::dvec3& w, const Widths& a) {
     return (std::sqrt(1.0 + stretched) - 1.0) / 2.0;
 }
 
+double distribution(const Directions& d, const Widths& a) {
+    return distribution(a.turned(glm::normalize(d.h)), a);
+}
+
+double masking(const Directions& d, const Widths& a) {
+    return 1.0 / (1.0 + lambda(a.turned(d.wi), a) + lambda(a.turned(d.wo), a));
+}
+
 double lobe(const Directions& d, const Widths& a) {
-    const double masking = 1.0 / (1.0 + lambda(a.turned(d.wi), a) + lambda(a.turned(d.wo), a));
-    return distribution(a.turned(glm::normalize(d.h)), a) * masking / (4.0 * d.wi.z * d.wo.z);
+    return distribution(d, a) * masking(d, a) / (4.0 * d.wi.z * d.wo.z);
 }
 
 }  // namespace
@@ -59,6 +66,10 @@ Brdf ggx() {
     brdf.fCos = [](const Directions& d, std::span<const double> values) {
         return aboveSurface(d) ? microfacetFCos(d, values, lobe(d, {values[6], values[7], values[8]}))
                                : glm::dvec3(0.0);
+    };
+    brdf.factors = [](const Directions& d, std::span<const double> values) {
+        const Widths a{values[6], values[7], values[8]};
+        return microfacetFactors(d, values, distribution(d, a), masking(d, a));
     };
     brdf.ambient = microfacetAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {

@@ -30,22 +30,34 @@ double lambda(double c, double alpha) {
     return (std::sqrt(1.0 + alpha * alpha * tan2) - 1.0) / 2.0;
 }
 
+double masking(const Directions& d, double alpha) {
+    return 1.0 / (1.0 + lambda(d.wi.z, alpha) + lambda(d.wo.z, alpha));
+}
+
+glm::dvec3 fresnelOf(const Directions& d, std::span<const double> values) {
+    using namespace shading;
+    const glm::dvec3 f0 = glm::mix(glm::dvec3(kDielectricF0), rgbAt(values, 0), values[3]);
+    return f0 + (1.0 - f0) * std::pow(oneMinusCosThetaD(d), 5.0);
+}
+
 glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     using namespace shading;
     if (!aboveSurface(d)) return glm::dvec3(0.0);
     const glm::dvec3 baseColor = rgbAt(values, 0);
     const double metallic = values[3];
     const double alpha = alphaOf(values[4]);
-
-    const glm::dvec3 h = glm::normalize(d.h);
-    const double schlick = std::pow(oneMinusCosThetaD(d), 5.0);
-    const glm::dvec3 f0 = glm::mix(glm::dvec3(kDielectricF0), baseColor, metallic);
-    const glm::dvec3 fresnel = f0 + (1.0 - f0) * schlick;
-
-    const double masking = 1.0 / (1.0 + lambda(d.wi.z, alpha) + lambda(d.wo.z, alpha));
-    const glm::dvec3 specular = fresnel * (masking * ggx(h, alpha) / (4.0 * d.wi.z * d.wo.z));
+    const glm::dvec3 fresnel = fresnelOf(d, values);
+    const glm::dvec3 specular =
+        fresnel * (masking(d, alpha) * ggx(glm::normalize(d.h), alpha) / (4.0 * d.wi.z * d.wo.z));
     const glm::dvec3 diffuse = (1.0 - fresnel) * baseColor * ((1.0 - metallic) / glm::pi<double>());
     return (diffuse + specular) * d.wi.z;
+}
+
+std::vector<BrdfFactor> factors(const Directions& d, std::span<const double> values) {
+    const double alpha = alphaOf(values[4]);
+    return {{"D", glm::dvec3(ggx(glm::normalize(d.h), alpha))},
+            {"F", fresnelOf(d, values)},
+            {"G", glm::dvec3(masking(d, alpha))}};
 }
 
 }  // namespace
@@ -69,6 +81,7 @@ Brdf metallic_roughness() {
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "baseColor";
     brdf.fCos = fCos;
+    brdf.factors = factors;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double> values) { return 2.0 / alphaOf(values[4]); };
     brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
