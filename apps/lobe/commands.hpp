@@ -10,6 +10,8 @@ int renderCommand(const std::vector<std::string>& arguments);
 int planCommand(const std::vector<std::string>& arguments);
 /// `lobe plot KIND`: docs/plots.md.
 int plotCommand(const std::vector<std::string>& arguments);
+/// `lobe report`: docs/report.md.
+int reportCommand(const std::vector<std::string>& arguments);
 int infoCommand(const std::vector<std::string>& arguments);
 int modelsCommand(const std::vector<std::string>& arguments);
 /// `lobe help [--markdown]`: all settings, as docs/cli.md holds them.

@@ -15,6 +15,7 @@ constexpr const char* kUsage =
     "usage: lobe COMMAND [OPTION...]\n"
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
+    "  report SCENE... -o report/           error against run time of quality settings\n"
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
     "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
     "  info                                 OpenGL contexts that can be made here\n"
@@ -26,7 +27,8 @@ int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {
         {"render", lobe::app::renderCommand}, {"plan", lobe::app::planCommand},
         {"models", lobe::app::modelsCommand}, {"plot", lobe::app::plotCommand},
-        {"info", lobe::app::infoCommand},     {"help", lobe::app::helpCommand}};
+        {"info", lobe::app::infoCommand},     {"report", lobe::app::reportCommand},
+        {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");

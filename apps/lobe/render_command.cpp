@@ -1,7 +1,5 @@
 // lobe render: scenes in, pictures out.
 #include <atomic>
-#include <csignal>
-#include <cstdlib>
 #include <iostream>
 
 #include "arguments.hpp"
@@ -9,6 +7,7 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "image/image_files.hpp"
+#include "interrupt.hpp"
 #include "output_name.hpp"
 #include "pipeline.hpp"
 #include "record.hpp"
@@ -16,14 +15,6 @@
 
 namespace lobe::app {
 namespace {
-
-std::atomic<bool> interrupted = false;
-constexpr int kInterruptedExit = 130;
-
-void interrupt(int) {
-    // A second one ends the program at once.
-    if (interrupted.exchange(true)) std::_Exit(kInterruptedExit);
-}
 
 struct RenderArguments {
     std::vector<std::string> inputs;
@@ -165,9 +156,7 @@ int renderCommand(const std::vector<std::string>& list) {
                       r.quiet     ? Verbosity::quiet
                       : r.verbose ? Verbosity::verbose
                                   : Verbosity::normal);
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    std::signal(SIGPIPE, SIG_IGN);
+    const std::atomic<bool>& interrupted = catchInterrupts();
     runShots(shots, options, reporter, interrupted);
     const ExitCode code = reporter.finish(interrupted);
     return interrupted ? kInterruptedExit : static_cast<int>(code);

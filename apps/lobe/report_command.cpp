@@ -1,0 +1,190 @@
+// lobe report: how wrong each quality setting is, and what it costs.
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "arguments.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "commands.hpp"
+#include "image/image_files.hpp"
+#include "image/tone.hpp"
+#include "interrupt.hpp"
+#include "lobe_paths.hpp"
+#include "measure/errors.hpp"
+#include "measure/machine.hpp"
+#include "measure/report_files.hpp"
+#include "measure/scene_report.hpp"
+#include "plan/knobs.hpp"
+#include "shot_scene.hpp"
+
+namespace lobe::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct ReportArguments {
+    std::vector<std::string> inputs;
+    int settings = 40;
+    double seconds = 480.0;
+    std::string metric = "relmse";
+    bool quiet = false;
+};
+
+void addOptions(CLI::App& app, ReportArguments& r) {
+    app.add_option("scenes", r.inputs, "glTF scenes (.gltf, .glb), or folders of them")
+        ->type_name("SCENE...");
+    app.add_option("--max-settings", r.settings, "how many quality settings to measure a scene, at most [40]")
+        ->type_name("N")
+        ->check(CLI::Range(2, 10000));
+    app.add_option("--max-time", r.seconds,
+                   "how long to measure a scene, its truth apart; in less time less is measured [480], s")
+        ->type_name("S")
+        ->check(CLI::Range(1.0, 1e6));
+    app.add_option("--error-metric", r.metric, "which error the chart shows [relmse]")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(measure::errorMetricNames()));
+    app.add_flag("-q,--quiet", r.quiet, "only errors");
+}
+
+/// Writes pictures of a report as they come.
+class ReportPictures {
+public:
+    ReportPictures(fs::path folder, const Settings& settings) : folder_(std::move(folder)) { use(settings); }
+
+    void use(const Settings& settings) {
+        exposure_ = static_cast<float>(settings.get("exposure").get<double>());
+        toneMapping_ = toneMappingOf(settings);
+    }
+    void add(const std::string& name, const Image& image) {
+        const float black[3] = {0.0f, 0.0f, 0.0f};
+        add(name, toDisplay(image, exposure_, toneMapping_, false, black));
+    }
+    void add(const std::string& name, const Bitmap& bitmap) {
+        const std::string file = "pictures/" + name + ".png";
+        files_.write(folder_ / file, bitmap, {});
+        names_[name] = file;
+    }
+    const json& names() const { return names_; }
+
+private:
+    fs::path folder_;
+    float exposure_ = 0.0f;
+    ToneMapping toneMapping_ = ToneMapping::none;
+    ImageFiles files_;
+    json names_ = json::object();
+};
+
+/// Settings of each scene. Knobs are what a report tries, so none may be set.
+std::vector<Settings> settingsOf(const std::vector<fs::path>& files, SettingSources sources) {
+    for (const Assignment& assignment : sources.assignments) {
+        const std::vector<std::string> knobs = knobNames();
+        if (assignment.key == "quality" ||
+            std::find(knobs.begin(), knobs.end(), assignment.key) != knobs.end())
+            throw UsageError(assignment.key +
+                             " is set; expected no quality setting: a report tries them all");
+    }
+    // A report's own default, before what the command line says.
+    sources.assignments.insert(sources.assignments.begin(), {Assignment::Kind::set, "resolution", "640,360"});
+    std::vector<Settings> all;
+    for (const fs::path& file : files) {
+        all.push_back(sources.resolve(file));
+        requireOneCamera(all.back());
+    }
+    return all;
+}
+
+std::string uniqueKey(const std::string& name, std::set<std::string>& used) {
+    std::string key = name;
+    for (int n = 2; !used.insert(key).second; ++n)
+        key = name + "_" + std::to_string(n);
+    return key;
+}
+
+json headOf(const gl::ContextInfo& info, const std::vector<std::string>& list) {
+    std::string command = "lobe report";
+    for (const std::string& argument : list)
+        command += " " + argument;
+    return {{"schema", measure::kReportSchema},
+            {"program", "lobe"},
+            {"version", paths::kVersion},
+            {"machine", measure::machineJson()},
+            {"context", measure::contextJson(info, measure::clockOf(info))},
+            {"created", measure::utcNow()},
+            {"command", command},
+            {"knobs", measure::knobsJson()},
+            {"scenes", json::array()},
+            {"pictures", json::object()}};
+}
+
+void writeFiles(const json& report, const fs::path& folder, const std::string& metric) {
+    writeAtomically(folder / "report.json",
+                    report.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+    writeAtomically(folder / "report.csv", measure::reportCsv(report));
+    constexpr int kWidth = 960, kHeight = 640;
+    writeAtomically(folder / "report.png", measure::reportChart(report, metric, kWidth, kHeight));
+}
+
+gl::ContextRequest contextOf(const Settings& settings) {
+    return {.backend = gl::parseBackend(settings.get("backend").get<std::string>()),
+            .device = settings.get("device").get<int>()};
+}
+
+}  // namespace
+
+int reportCommand(const std::vector<std::string>& list) {
+    Arguments arguments(
+        "report",
+        "Measure error against run time of quality settings, and write report.json, report.csv, "
+        "report.png and pictures into the folder -o [report].");
+    ReportArguments r;
+    addOptions(arguments.app(), r);
+    arguments.addSettings();
+    if (!arguments.parse(list)) return 0;
+    if (r.inputs.empty()) throw UsageError("nothing to measure; expected scenes");
+    const std::vector<fs::path> files = sceneFiles(r.inputs);
+    const std::vector<Settings> settings = settingsOf(files, arguments.sources());
+    const json& output = settings.front().get("output");
+    const fs::path folder = output.is_null() ? "report" : output.get<std::string>();
+
+    const std::atomic<bool>& interrupted = catchInterrupts();
+    const auto context = gl::Context::create(contextOf(settings.front()));
+    const measure::TruthSource truth = measure::convergedTruth(*context);
+    ReportPictures pictures(folder, settings.front());
+    json report = headOf(context->info(), list);
+    measure::ReportEvents events;
+    events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
+    events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };
+    events.progress = [&](const std::string& line) {
+        if (!r.quiet) std::cerr << line << '\n';
+    };
+    events.stop = &interrupted;
+    SceneLoader loader;
+    std::set<std::string> keys;
+    for (size_t i = 0; i < files.size() && !interrupted; ++i) {
+        pictures.use(settings[i]);
+        measure::ReportScene scene;
+        scene.scene = preparedScene(
+            std::make_shared<const Scene>(loader.load(files[i], loadOptionsOf(settings[i]))), settings[i]);
+        for (const std::string& warning : scene.scene->warnings)
+            std::cerr << "lobe: warning: " << scene.scene->file << ": " << warning << '\n';
+        scene.camera = cameraOf(*scene.scene, settings[i], 0);
+        const RenderOptions options = renderOptionsOf(settings[i]);
+        scene.width = options.width;
+        scene.height = options.height;
+        scene.key = uniqueKey(scene.scene->name, keys);
+        json entry = measure::measureScene(*context, scene, truth,
+                                           {.settings = r.settings, .seconds = r.seconds}, events);
+        if (entry["settings"].empty()) break;
+        report["scenes"].push_back(std::move(entry));
+        report["pictures"] = pictures.names();
+        // After each scene: what is done stays, whatever comes.
+        writeFiles(report, folder, r.metric);
+    }
+    if (!r.quiet && !report["scenes"].empty())
+        std::cerr << "written: " << (folder / "report.json").string() << ", report.csv, report.png\n";
+    return interrupted ? kInterruptedExit : 0;
+}
+
+}  // namespace lobe::app
