@@ -18,6 +18,7 @@ constexpr const char* kUsage =
     "  report SCENE... -o report/           error against run time of quality settings\n"
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
     "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
+    "  compare A B                          how far picture A is from B, the truth\n"
     "  info                                 OpenGL contexts that can be made here\n"
     "  help [COMMAND]                       every setting, or a command's options\n"
     "  --version                            versions\n"
@@ -25,10 +26,10 @@ constexpr const char* kUsage =
 
 int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {
-        {"render", lobe::app::renderCommand}, {"plan", lobe::app::planCommand},
-        {"models", lobe::app::modelsCommand}, {"plot", lobe::app::plotCommand},
-        {"info", lobe::app::infoCommand},     {"report", lobe::app::reportCommand},
-        {"help", lobe::app::helpCommand}};
+        {"render", lobe::app::renderCommand},   {"plan", lobe::app::planCommand},
+        {"models", lobe::app::modelsCommand},   {"plot", lobe::app::plotCommand},
+        {"compare", lobe::app::compareCommand}, {"info", lobe::app::infoCommand},
+        {"report", lobe::app::reportCommand},   {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");
