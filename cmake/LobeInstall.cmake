@@ -9,6 +9,7 @@ install(TARGETS lobe lobe-check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS lobe-image-worker lobe-scene-worker lobe-check-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lobe)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/shaders/glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe
         FILES_MATCHING PATTERN "*.glsl" PATTERN "*.vert" PATTERN "*.frag")
+install(DIRECTORY ${LOBE_PAGE_BUILT} DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe)
 
 set_target_properties(lobe_compile PROPERTIES EXPORT_NAME compile)
 install(TARGETS ${rooms} lobe_compile EXPORT lobe ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

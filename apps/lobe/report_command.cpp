@@ -13,6 +13,7 @@
 #include "lobe_paths.hpp"
 #include "measure/errors.hpp"
 #include "measure/machine.hpp"
+#include "measure/page.hpp"
 #include "measure/report_files.hpp"
 #include "measure/scene_report.hpp"
 #include "plan/knobs.hpp"
@@ -124,6 +125,7 @@ void writeFiles(const json& report, const fs::path& folder, const std::string& m
     writeAtomically(folder / "report.csv", measure::reportCsv(report));
     constexpr int kWidth = 960, kHeight = 640;
     writeAtomically(folder / "report.png", measure::reportChart(report, metric, kWidth, kHeight));
+    writeReportPage(report, folder);
 }
 
 gl::ContextRequest contextOf(const Settings& settings) {
@@ -136,8 +138,8 @@ gl::ContextRequest contextOf(const Settings& settings) {
 int reportCommand(const std::vector<std::string>& list) {
     Arguments arguments(
         "report",
-        "Measure error against run time of quality settings, and write report.json, report.csv, "
-        "report.png and pictures into the folder -o [report].");
+        "Measure error against run time of quality settings, and write report.html, report.json, "
+        "report.csv, report.png and pictures into the folder -o [report].");
     ReportArguments r;
     addOptions(arguments.app(), r);
     arguments.addSettings();
@@ -183,7 +185,7 @@ int reportCommand(const std::vector<std::string>& list) {
         writeFiles(report, folder, r.metric);
     }
     if (!r.quiet && !report["scenes"].empty())
-        std::cerr << "written: " << (folder / "report.json").string() << ", report.csv, report.png\n";
+        std::cerr << "written: " << (folder / "report.json").string() << ", report.csv, report.png, report.html\n";
     return interrupted ? kInterruptedExit : 0;
 }
 

@@ -10,6 +10,7 @@
 // with it (cmake/lobe_place.cpp.in); other programs have none.
 extern "C" __attribute__((weak)) const char* lobePackageShaders();
 extern "C" __attribute__((weak)) const char* lobePackageWorkers();
+extern "C" __attribute__((weak)) const char* lobePackagePage();
 
 namespace lobe {
 namespace {
@@ -46,6 +47,14 @@ fs::path shaderDirectory() {
     return firstThatExists("GLSL library",
                            {programFolder() / ".." / "share" / "lobe" / "glsl", package,
                             fs::path(paths::kInstalledShaders), fs::path(paths::kSourceShaders)});
+}
+
+fs::path pageDirectory() {
+    const fs::path asked = fromEnvironment("LOBE_PAGE_DIR");
+    if (!asked.empty()) return firstThatExists("LOBE_PAGE_DIR", {asked});
+    const fs::path package = lobePackagePage != nullptr ? lobePackagePage() : "";
+    return firstThatExists("report page", {programFolder() / ".." / "share" / "lobe" / "page", package,
+                                           fs::path(paths::kInstalledPage), fs::path(paths::kBuiltPage)});
 }
 
 fs::path workerProgram(const std::string& name) {
