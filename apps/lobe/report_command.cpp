@@ -185,7 +185,8 @@ int reportCommand(const std::vector<std::string>& list) {
         writeFiles(report, folder, r.metric);
     }
     if (!r.quiet && !report["scenes"].empty())
-        std::cerr << "written: " << (folder / "report.json").string() << ", report.csv, report.png, report.html\n";
+        std::cerr << "written: " << (folder / "report.json").string()
+                  << ", report.csv, report.png, report.html\n";
     return interrupted ? kInterruptedExit : 0;
 }
 

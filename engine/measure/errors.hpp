@@ -5,23 +5,28 @@
 #include <string>
 #include <vector>
 
-#include "image/image.hpp"
+#include "image/metrics.hpp"
 
 namespace lobe::measure {
 
-/// Mean over pixels and R, G, B of (test - truth)^2 / (truth^2 + 0.01).
-double relativeSquaredError(const Image& test, const Image& truth);
-
-/// The object "error" of a setting in report.json.
-nlohmann::json errorJson(const Image& test, const Image& truth);
+struct PictureError {
+    /// The object "error" of a setting in report.json. Edges apart from shading where the truth has layers
+    /// for it (image/edges.hpp), else null; all null in a picture with a non-finite pixel, which are counted.
+    nlohmann::json values;
+    /// relmse; infinite in a picture with a non-finite pixel.
+    double relativeSquare = 0.0;
+    /// Root of the relative square error a pixel, as colours of viridis: 10^-4 dark to 1 bright, in equal
+    /// ratios. A non-finite pixel counts as black.
+    Bitmap map;
+};
+PictureError pictureError(const Image& test, const Image& truth);
 
 /// All keys of errorJson, in the order of the columns of report.csv.
 const std::vector<std::string>& errorColumns();
 
-/// Metrics of errorJson by which settings can be chosen, of which less is better: "relmse", "rmse", ...
+/// Those by which settings can be chosen.
 const std::vector<std::string>& errorMetricNames();
-
-/// Relative difference a pixel as colours of viridis, from 10^-4 to 1 in equal ratios.
-Bitmap differenceMap(const Image& test, const Image& truth);
+/// PSNR and SSIM.
+bool largerIsBetter(const std::string& metric);
 
 }  // namespace lobe::measure

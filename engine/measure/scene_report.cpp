@@ -94,12 +94,13 @@ private:
         double time = 1e300;
         for (int i = 0; i < kRoughFrames; ++i)
             time = std::min(time, timeFrame(renderer_, scene_.camera, clock_).clock);
-        setting.error = errorJson(image, truth.image);
+        PictureError error = pictureError(image, truth.image);
+        setting.error = std::move(error.values);
         setting.picture = scene_.key + "_settings_" + std::to_string(settings_.size());
         events_.picture(setting.picture, image);
-        events_.bitmap(setting.picture + "_diff", differenceMap(image, truth.image));
+        events_.bitmap(setting.picture + "_diff", error.map);
         leftOut_ = renderer_.plan().leftOut;
-        points_.push_back({choice, std::max(time, 1e-6), setting.error["relmse"].get<double>()});
+        points_.push_back({choice, std::max(time, 1e-6), error.relativeSquare});
         settings_.push_back(std::move(setting));
     }
 
@@ -176,8 +177,8 @@ private:
     json toJson(const Truth& truth) {
         const Noise noise = judgeNoise(samples_);
         std::vector<double> errors;
-        for (const Setting& setting : settings_)
-            errors.push_back(setting.error["relmse"].get<double>());
+        for (const Point& point : points_)
+            errors.push_back(point.error);
         const std::vector<size_t> front = paretoFront(
             errors, [&](size_t i, size_t j) { return noise.order[i][j]; },
             truth.standardError * truth.standardError);

@@ -92,7 +92,7 @@ void Search::combine(const std::vector<Point>& measured) {
     double time = 0.0, error = 0.0;
     for (const Point& point : measured) {
         time = std::max(time, point.time);
-        error = std::max(error, point.error);
+        if (std::isfinite(point.error)) error = std::max(error, point.error);
     }
     if (time <= 0.0 || error <= 0.0) return;
     // From where only error counts to where only time does: errors of a front span many decades.

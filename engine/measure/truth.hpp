@@ -11,7 +11,7 @@
 namespace lobe::measure {
 
 struct Truth {
-    Image image;  ///< R G B A
+    Image image;  ///< R G B A, and layers that tell edges (image/edges.hpp)
     /// Of the image's own error: root of the mean of its squared relative error, from independent halves; 0
     /// if not known.
     double standardError = 0.0;
