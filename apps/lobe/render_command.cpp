@@ -10,6 +10,7 @@
 #include "interrupt.hpp"
 #include "output_name.hpp"
 #include "pipeline.hpp"
+#include "quality_goal.hpp"
 #include "record.hpp"
 #include "shot_scene.hpp"
 
@@ -20,6 +21,7 @@ struct RenderArguments {
     std::vector<std::string> inputs;
     std::string batch, shardText, filter, reproduce;
     double timeLimit = 600.0;
+    QualityGoal goal;
     bool headless = false, resume = false, json = false, list = false, quiet = false, verbose = false;
 };
 
@@ -38,6 +40,7 @@ void addOptions(CLI::App& app, RenderArguments& r) {
                    "with --brdf-file: how long drawing one picture may take before an endless loop is "
                    "assumed [600], s")
         ->type_name("S");
+    r.goal.addOptions(app);
     const auto addFlag = [&](const std::string& names, bool& value, const std::string& help) {
         const std::string name = names.substr(names.rfind("--") + 2);
         app.add_flag(names + ",!--no-" + name, value, help);
@@ -120,9 +123,13 @@ int renderCommand(const std::vector<std::string>& list) {
     if (!arguments.parse(list)) return 0;
 
     if (!(r.timeLimit > 0.0)) throw UsageError("--time-limit: expected more than 0 seconds");
+    if (!r.goal.report.empty() && !r.goal.isSet())
+        throw UsageError("--report without --max-error or --budget; expected one of them");
+    const SettingSources sources = arguments.sources();
+    if (r.goal.isSet()) requireNoKnobs(sources, "--max-error and --budget choose it");
     nlohmann::json record;  // of the picture to reproduce
     if (!r.reproduce.empty()) record = recordIn(ImageFiles().readMetadata(r.reproduce), r.reproduce);
-    std::vector<Shot> shots = shotsIn(r, record, arguments.sources());
+    std::vector<Shot> shots = shotsIn(r, record, sources);
     forEachSettings(shots, [](const Shot& shot) { requireOneCamera(*shot.settings); });
     nameOutputs(shots);
     if (!r.filter.empty()) {
@@ -132,6 +139,8 @@ int renderCommand(const std::vector<std::string>& list) {
         if (shots.empty()) throw UsageError("no shot matches --filter '" + r.filter + "'");
     }
     if (!r.shardText.empty()) shots = shard(shots, r.shardText);
+    const std::atomic<bool>& interrupted = catchInterrupts();
+    if (r.goal.isSet() && !shots.empty()) applyGoal(shots, r.goal, contextOf(shots), r.quiet, interrupted);
     if (r.list) {
         printList(shots, r.json);
         return 0;
@@ -156,7 +165,6 @@ int renderCommand(const std::vector<std::string>& list) {
                       r.quiet     ? Verbosity::quiet
                       : r.verbose ? Verbosity::verbose
                                   : Verbosity::normal);
-    const std::atomic<bool>& interrupted = catchInterrupts();
     runShots(shots, options, reporter, interrupted);
     const ExitCode code = reporter.finish(interrupted);
     return interrupted ? kInterruptedExit : static_cast<int>(code);

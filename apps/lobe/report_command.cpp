@@ -11,12 +11,13 @@
 #include "image/tone.hpp"
 #include "interrupt.hpp"
 #include "lobe_paths.hpp"
+#include "measure/against.hpp"
 #include "measure/errors.hpp"
 #include "measure/machine.hpp"
 #include "measure/page.hpp"
 #include "measure/report_files.hpp"
 #include "measure/scene_report.hpp"
-#include "plan/knobs.hpp"
+#include "quality_goal.hpp"
 #include "shot_scene.hpp"
 
 namespace lobe::app {
@@ -29,7 +30,7 @@ struct ReportArguments {
     std::vector<std::string> inputs;
     int settings = 40;
     double seconds = 480.0;
-    std::string metric = "relmse";
+    std::string metric = "relmse", against, from;
     bool quiet = false;
 };
 
@@ -46,7 +47,28 @@ void addOptions(CLI::App& app, ReportArguments& r) {
     app.add_option("--error-metric", r.metric, "which error the chart shows [relmse]")
         ->type_name("NAME")
         ->check(CLI::IsMember(measure::errorMetricNames()));
+    app.add_option("--against", r.against,
+                   "another report.json to compare with: regressions of time and error give exit code 1")
+        ->type_name("FILE");
+    app.add_option("--from", r.from, "with --against: an earlier report.json, in place of scenes to measure")
+        ->type_name("FILE");
     app.add_flag("-q,--quiet", r.quiet, "only errors");
+}
+
+/// Prints what has changed. Throws Error (checkFailed) if something got worse.
+void printChanges(const json& now, const std::string& file) {
+    const measure::ReportChanges changes = measure::compareReports(now, measure::readReport(file));
+    for (const std::string& line : changes.notes)
+        std::cout << "note: " << line << '\n';
+    for (const std::string& line : changes.improvements)
+        std::cout << "better: " << line << '\n';
+    for (const std::string& line : changes.regressions)
+        std::cout << "worse: " << line << '\n';
+    std::cout << changes.compared << " settings compared, " << changes.regressions.size() << " regressions, "
+              << changes.improvements.size() << " improvements\n";
+    if (!changes.regressions.empty())
+        throw Error(ExitCode::checkFailed,
+                    std::to_string(changes.regressions.size()) + " regressions against " + file);
 }
 
 /// Writes pictures of a report as they come.
@@ -77,15 +99,9 @@ private:
     json names_ = json::object();
 };
 
-/// Settings of each scene. Knobs are what a report tries, so none may be set.
+/// Settings of each scene.
 std::vector<Settings> settingsOf(const std::vector<fs::path>& files, SettingSources sources) {
-    for (const Assignment& assignment : sources.assignments) {
-        const std::vector<std::string> knobs = knobNames();
-        if (assignment.key == "quality" ||
-            std::find(knobs.begin(), knobs.end(), assignment.key) != knobs.end())
-            throw UsageError(assignment.key +
-                             " is set; expected no quality setting: a report tries them all");
-    }
+    requireNoKnobs(sources, "a report tries them all");
     // A report's own default, before what the command line says.
     sources.assignments.insert(sources.assignments.begin(), {Assignment::Kind::set, "resolution", "640,360"});
     std::vector<Settings> all;
@@ -144,6 +160,13 @@ int reportCommand(const std::vector<std::string>& list) {
     addOptions(arguments.app(), r);
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;
+    if (!r.from.empty()) {
+        if (r.against.empty() || !r.inputs.empty())
+            throw UsageError("--from goes with --against and without scenes");
+        printChanges(measure::readReport(r.from), r.against);
+        return 0;
+    }
+    if (!r.against.empty()) measure::readReport(r.against);  // a wrong one is found before the work
     if (r.inputs.empty()) throw UsageError("nothing to measure; expected scenes");
     const std::vector<fs::path> files = sceneFiles(r.inputs);
     const std::vector<Settings> settings = settingsOf(files, arguments.sources());
@@ -187,7 +210,9 @@ int reportCommand(const std::vector<std::string>& list) {
     if (!r.quiet && !report["scenes"].empty())
         std::cerr << "written: " << (folder / "report.json").string()
                   << ", report.csv, report.png, report.html\n";
-    return interrupted ? kInterruptedExit : 0;
+    if (interrupted) return kInterruptedExit;
+    if (!r.against.empty()) printChanges(report, r.against);
+    return 0;
 }
 
 }  // namespace lobe::app

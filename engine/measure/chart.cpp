@@ -57,7 +57,8 @@ std::vector<Dot> dotsOf(const json& scene, const std::string& metric) {
 std::string reportChart(const json& report, const std::string& metric, int width, int height) {
     std::string blocks, plots, labels;
     size_t index = 0;
-    double highest = 0.0, lowest = 1e300;
+    int presets = 0;  // names of neighbours stand above and below
+    double highest = 0.0, lowest = 1e300, fastest = 1e300, slowest = 0.0;
     for (const json& scene : report["scenes"]) {
         const std::string n = std::to_string(index), colour = plot::seriesColor(index);
         std::vector<std::string> all, front;
@@ -68,9 +69,12 @@ std::string reportChart(const json& report, const std::string& metric, int width
             if (!dot.preset.empty())
                 labels += "set label " + plot::gnuplotText(dot.preset) + " noenhanced at first " +
                           number(dot.time) + ", first " + number(dot.error) +
-                          " offset character 0.8, character 0.6 textcolor rgb \"#444444\"\n";
+                          " offset character 0.8, character " + (presets++ % 2 == 0 ? "0.7" : "-0.9") +
+                          " textcolor rgb \"#444444\"\n";
             highest = std::max(highest, dot.error);
             lowest = std::min(lowest, dot.error);
+            fastest = std::min(fastest, dot.low);
+            slowest = std::max(slowest, dot.high);
         }
         ++index;
         if (all.empty()) continue;
@@ -89,11 +93,12 @@ std::string reportChart(const json& report, const std::string& metric, int width
         "set terminal pngcairo size " + std::to_string(width) + "," + std::to_string(height) +
         " font \"sans,11\"\nset encoding utf8\nset output\nset border linewidth 1 linecolor rgb \"#444444\"\n"
         "set tics nomirror\nset grid linecolor rgb \"#dddddd\"\nset logscale xy\nset format x \"%g\"\n"
-        "set format y \"10^{%T}\"\nset key top right noenhanced\nset offsets graph 0.05, graph 0.1, 0, 0\n"
-        "set yrange [" +
-        number(lowest * 0.5) + ":" + number(highest * 2.0) + "]\nset xlabel " +
-        plot::gnuplotText("time of a frame, ms (" + clock + ")") + " noenhanced\nset ylabel " +
-        plot::gnuplotText(axisOf(metric)) + " noenhanced\n" + blocks + labels + "plot " + plots + "\n");
+        "set format y \"10^{%T}\"\nset key top right noenhanced\n"
+        "set xrange [" +
+        number(fastest * 0.7) + ":" + number(slowest * 2.0) + "]\nset yrange [" + number(lowest * 0.5) + ":" +
+        number(highest * 2.0) + "]\nset xlabel " + plot::gnuplotText("time of a frame, ms (" + clock + ")") +
+        " noenhanced\nset ylabel " + plot::gnuplotText(axisOf(metric)) + " noenhanced\n" + blocks + labels +
+        "plot " + plots + "\n");
 }
 
 }  // namespace lobe::measure

@@ -35,8 +35,22 @@ bool isList(const json& object, const char* key) {
 
 bool isSetting(const json& setting) {
     const auto has = [&](const char* key) { return setting.contains(key) && setting[key].is_object(); };
-    return has("knobs") && has("time") && has("error") && setting.contains("label") &&
-           setting["label"].is_string();
+    if (!has("knobs") || !has("time") || !has("error") || !setting.contains("label") ||
+        !setting["label"].is_string() || !setting["error"].contains("relmse"))
+        return false;
+    for (const char* key : {"median_ms", "low_ms", "high_ms", "wall_ms"})
+        if (!setting["time"].contains(key) || !setting["time"][key].is_number()) return false;
+    return std::all_of(setting["knobs"].begin(), setting["knobs"].end(),
+                       [](const json& value) { return value.is_string(); });
+}
+
+bool isScene(const json& scene) {
+    const auto positive = [&](const char* key) {
+        return scene.contains(key) && scene[key].is_number() && scene[key].get<double>() > 0.0;
+    };
+    return scene.contains("scene") && scene["scene"].is_string() && positive("width") && positive("height") &&
+           isList(scene, "settings") &&
+           std::all_of(scene["settings"].begin(), scene["settings"].end(), isSetting);
 }
 
 }  // namespace
@@ -79,12 +93,8 @@ json readReport(const std::filesystem::path& file) {
     if (report["schema"] != kReportSchema)
         throw InputError(file.string() + ": schema " + report["schema"].dump() + "; expected " +
                          std::to_string(kReportSchema));
-    const bool good = isList(report, "scenes") &&
-                      std::all_of(report["scenes"].begin(), report["scenes"].end(), [](const json& scene) {
-                          return scene.contains("scene") && scene["scene"].is_string() &&
-                                 isList(scene, "settings") &&
-                                 std::all_of(scene["settings"].begin(), scene["settings"].end(), isSetting);
-                      });
+    const bool good =
+        isList(report, "scenes") && std::all_of(report["scenes"].begin(), report["scenes"].end(), isScene);
     if (!good)
         throw InputError(file.string() +
                          ": damaged; expected scenes with settings that have knobs, time, error");

@@ -23,8 +23,8 @@ double secondsSince(SteadyClock::time_point start) {
 
 /// Shares of a scene's time: the search, then timing; passes and floors take what is left.
 constexpr double kSearchShare = 0.35, kTimingEnd = 0.85;
-/// Frames of the search's own rough times, and of each pass's.
-constexpr int kRoughFrames = 2, kPassFrames = 3, kFloorRuns = 3;
+/// Frames of each pass's times, and runs of its floor.
+constexpr int kPassFrames = 3, kFloorRuns = 3;
 
 struct Setting {
     Choice choice;
@@ -91,9 +91,7 @@ private:
         setting.quality = space_.qualityOf(choice);
         prepare(setting.quality, clock_ == Clock::timerQueries);
         const Image image = renderer_.render(scene_.camera).image;  // compiles and warms
-        double time = 1e300;
-        for (int i = 0; i < kRoughFrames; ++i)
-            time = std::min(time, timeFrame(renderer_, scene_.camera, clock_).clock);
+        const double time = timeFrame(renderer_, scene_.camera, clock_).clock;
         PictureError error = pictureError(image, truth.image);
         setting.error = std::move(error.values);
         setting.picture = scene_.key + "_settings_" + std::to_string(settings_.size());
