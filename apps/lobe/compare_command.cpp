@@ -107,10 +107,14 @@ int compareCommand(const std::vector<std::string>& list) {
     app.add_option("-o,--output", output,
                    "map of the first metric: .png or .jpg in viridis, .exr its values");
     app.add_option("--metric", metrics, "one of " + listed(metricNames()) + "; may be repeated [all]")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->allow_extra_args(false);
     app.add_option("--max", maxima, "fail (exit code 1) above it; may be repeated")
-        ->type_name("METRIC=VALUE");
-    app.add_option("--min", minima, "fail below it: psnr, ssim; may be repeated")->type_name("METRIC=VALUE");
+        ->type_name("METRIC=VALUE")
+        ->allow_extra_args(false);
+    app.add_option("--min", minima, "fail below it: psnr, ssim; may be repeated")
+        ->type_name("METRIC=VALUE")
+        ->allow_extra_args(false);
     app.add_option("--json", jsonFile, "write the result; - is standard output, without the table")
         ->type_name("FILE");
     app.add_flag("--subtract-truth-variance", subtract,
@@ -171,11 +175,20 @@ int compareCommand(const std::vector<std::string>& list) {
     else
         std::cout << toText(report);
     if (!jsonFile.empty() && jsonFile != "-") writeAtomically(jsonFile, toJson(report).dump(2) + "\n");
-    if (!finite) return static_cast<int>(ExitCode::nonFinite);
-    const bool good =
-        std::all_of(report.thresholds.begin(), report.thresholds.end(),
-                    [&](const Threshold& one) { return holds(one, report.parts.front().metrics); });
-    return static_cast<int>(good ? ExitCode::ok : ExitCode::checkFailed);
+    if (!finite) {
+        const bool own = bad.testNonFinite.pixels > 0;
+        throw Error(ExitCode::nonFinite,
+                    (own ? testFile : truthFile) + ": non-finite pixels: " +
+                        std::to_string((own ? bad.testNonFinite : bad.truthNonFinite).pixels) +
+                        "; expected none");
+    }
+    for (const Threshold& one : report.thresholds)
+        if (!holds(one, report.parts.front().metrics))
+            throw Error(ExitCode::checkFailed,
+                        testFile + ": " + metricNames()[static_cast<size_t>(one.metric)] + ": " +
+                            std::to_string(*report.parts.front().metrics[one.metric]) + "; expected at " +
+                            (one.isMinimum ? "least " : "most ") + std::to_string(one.value));
+    return 0;
 }
 
 }  // namespace lobe::app

@@ -217,12 +217,10 @@ ExposureRange exposuresOf(const RgbPlanes& truth) {
     const auto lit = std::upper_bound(luminance.begin(), luminance.end(), 0.0);
     // Nothing to expose for: a radiance of 1 is as good as any.
     if (lit == luminance.end()) return {std::log2(bright), std::log2(bright), 1};
-    // Where half the picture is black its median would ask for an infinite exposure.
-    const size_t half = luminance.size() / 2;
-    const bool mostlyLit = luminance[half - (luminance.size() % 2 == 0 ? 1 : 0)] > 0.0;
-    const Plane seen(mostlyLit ? luminance.begin() : lit, luminance.end());
-    const size_t middle = seen.size() / 2;
-    const double median = seen.size() % 2 == 1 ? seen[middle] : 0.5 * (seen[middle - 1] + seen[middle]);
+    // Where half the picture is black its median would ask for an infinite exposure. Of an even number the
+    // upper of the middle two, as the published implementation has it.
+    const auto middle = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() / 2);
+    const double median = *middle > 0.0 ? *middle : *(lit + (luminance.end() - lit) / 2);
     ExposureRange range;
     range.start = std::log2(bright / luminance.back());
     range.stop = std::log2(bright / median);

@@ -40,7 +40,7 @@ Plane ssim(const Plane& a, const Plane& b, int width, int height) {
         // Values are at most 1 and C2 is 9e-4: the cancellation costs 1e-16 / 9e-4 at most.
         const double ab = meanA[i] * meanB[i], aa = meanA[i] * meanA[i], bb = meanB[i] * meanB[i];
         result[i] = (2.0 * ab + kC1) * (2.0 * (product[i] - ab) + kC2) /
-                    ((aa + bb + kC1) * (squareA[i] - aa + squareB[i] - bb + kC2));
+                    ((aa + bb + kC1) * ((squareA[i] - aa) + (squareB[i] - bb) + kC2));
     }
     return result;
 }
