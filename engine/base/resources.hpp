@@ -1,4 +1,5 @@
-/// Where the files that belong to Lobe are: shaders, workers, the parts of report pages. Never by the working directory.
+/// Where the files that belong to Lobe are: shaders, workers, the parts of report pages. Never by the working
+/// directory.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +11,9 @@ namespace lobe {
 /// was installed to; the source tree it was built from. Throws InputError that names every place tried.
 std::filesystem::path shaderDirectory();
 
-/// The folder of the parts of report.html: frame, style, scripts, chart library. Looked for in: $LOBE_PAGE_DIR;
-/// ../share/lobe/page beside the running program; the package; the folder it was installed to; the build tree.
-/// Throws InputError as above.
+/// The folder of the parts of report.html: frame, style, scripts, chart library. Looked for in:
+/// $LOBE_PAGE_DIR; ../share/lobe/page beside the running program; the package; the folder it was installed
+/// to; the build tree. Throws InputError as above.
 std::filesystem::path pageDirectory();
 
 /// A helper program (NAME without folder). Looked for in: $LOBE_WORKER_DIR; beside the running program;

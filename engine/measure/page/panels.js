@@ -16,7 +16,7 @@ function figures(pairs) {
 
 function simpleTable(headings, rows) {
   return make("div", {class: "scroll", tabindex: 0}, make("table", {},
-    make("thead", {}, make("tr", {}, ...headings.map(text => make("th", {scope: "col"}, text)))),
+    headings.length ? make("thead", {}, make("tr", {}, ...headings.map(text => make("th", {scope: "col"}, text)))) : "",
     make("tbody", {}, ...rows.map(row => make("tr", {}, ...row.map(cell =>
       cell instanceof Node ? make("td", {}, cell) : make("td", {class: "wrap"}, cell)))))));
 }
@@ -43,8 +43,8 @@ function showDetail(scene, setting, metric, pin) {
 /** Every picture of the scene: [name, text]. */
 function choices(scene) {
   const all = [[scene.truth?.picture, "Truth"]];
-  for (const s of scene.settings ?? []) all.push([s.picture, labelOf(s)]);
-  for (const s of scene.settings ?? []) all.push([s.difference, "Difference: " + labelOf(s)]);
+  for (const s of scene.settings) all.push([s.picture, labelOf(s)]);
+  for (const s of scene.settings) all.push([s.difference, "Difference: " + labelOf(s)]);
   return all.filter(([name]) => pictureOf(name));
 }
 
@@ -76,7 +76,7 @@ function columnsOf(scene) {
   const figure = metric => ({title: metric.title, number: true, of: metric.of, text: s => number(metric.of(s))});
   return [
     {title: "Setting", of: labelOf, text: labelOf},
-    {title: "Front", of: (s, front) => front.includes(s) ? 0 : 1, text: (s, front) => front.includes(s) ? "● front" : ""},
+    {title: "Front", of: (s, front) => front.includes(s) ? 0 : 1, text: (s, front) => front.includes(s) ? "●\u00a0front" : ""},
     {title: "Time (ms)", number: true, of: timeOf, text: s => number(timeOf(s))},
     {title: "Interval (ms)", number: true, of: s => s.time?.low_ms, text: s => `${number(s.time?.low_ms)} – ${number(s.time?.high_ms)}`},
     ...metrics.filter(metric => scene.settings.some(s => isNumber(metric.of(s)))).map(figure),
@@ -146,6 +146,6 @@ function showFacts() {
     ["Memory", gib], ["System", machine.os], ["Load before", isNumber(machine.load) ? number(machine.load) : null],
     ["Renderer", context.renderer], ["OpenGL", context.version], ["Driver", context.driver], ["Context", context.backend],
     ["Clock", context.clock]].filter(([, value]) => value != null && value !== "");
-  byId("facts").replaceChildren(simpleTable(["", ""], rows.map(([name, value]) => [name, String(value)])));
+  byId("facts").replaceChildren(simpleTable([], rows.map(([name, value]) => [name, String(value)])));
   byId("machine").textContent = [context.renderer, machine.cpu, report.created?.slice?.(0, 10)].filter(Boolean).join(" · ");
 }

@@ -3,12 +3,12 @@
 const state = {scene: null, metric: metrics[0], knobs: [], off: new Map(), chosen: null, pins: {}, sort: "Time (ms)", down: false};
 let chart = null, cursor = -1;
 
-const shown = () => (state.scene.settings ?? []).filter(setting =>
+const shown = () => state.scene.settings.filter(setting =>
   state.knobs.every(({name}) => !state.off.get(name)?.has(String(setting.knobs?.[name]))));
 
 /** The report's own front, which knows of noise, while all settings are shown under the report's own metric. */
 function front(settings) {
-  const all = state.scene.settings ?? [];
+  const all = state.scene.settings;
   if (state.metric.name === "relmse" && settings.length === all.length && all.some(s => s.front)) return all.filter(s => s.front);
   return paretoFront(settings, state.metric);
 }
@@ -25,7 +25,7 @@ function redraw() {
   if (drawn.missing) notes.push(`${drawn.missing} of ${settings.length} settings lack this figure or a time and are not drawn.`);
   if (!settings.length) notes.push("No setting passes the filters.");
   byId("chart_note").textContent = notes.join(" ");
-  byId("filters").querySelector("summary").textContent = `Filter by knob: ${settings.length} of ${state.scene.settings?.length ?? 0} settings shown`;
+  byId("filters").querySelector("summary").textContent = `Filter by knob: ${settings.length} of ${state.scene.settings.length} settings shown`;
   showTable(state.scene, settings, best, state, choose, sortBy);
 }
 
@@ -49,7 +49,7 @@ function pin(side, setting) {
 
 /** The pins are what the two lists say, so that lists, buttons and chart agree. */
 function readPins() {
-  const of = id => (state.scene.settings ?? []).find(s => s.picture != null && s.picture === byId(id).value);
+  const of = id => state.scene.settings.find(s => s.picture != null && s.picture === byId(id).value);
   state.pins = {a: of("left"), b: of("right")};
   chart.pins = state.pins;
   chart.draw();
@@ -77,7 +77,7 @@ function showFilters() {
 }
 
 function showScene(index) {
-  const scene = state.scene = scenes[index], settings = scene.settings ?? [];
+  const scene = state.scene = scenes[index], settings = scene.settings;
   [...byId("tabs").children].forEach((tab, at) => {
     tab.setAttribute("aria-selected", String(at === index));
     tab.tabIndex = at === index ? 0 : -1;
@@ -143,7 +143,7 @@ function start() {
   }
   byId("tabs").append(...scenes.map((scene, index) => make("button", {type: "button", role: "tab", id: "tab_" + index,
     "aria-controls": "scene", click: () => showScene(index), keydown: onTabKey}, String(scene.scene ?? "scene " + index))));
-  byId("metric").append(...metrics.filter(metric => scenes.some(scene => (scene.settings ?? []).some(s => isNumber(metric.of(s)))))
+  byId("metric").append(...metrics.filter(metric => scenes.some(scene => scene.settings.some(s => isNumber(metric.of(s)))))
     .map(metric => make("option", {value: metric.name}, metric.title)));
   state.metric = metrics.find(metric => metric.name === byId("metric").value) ?? metrics[0];
   byId("metric").addEventListener("change", () => {

@@ -2,7 +2,7 @@
 // What the report says, as text. Whatever may be missing is null and shown as a dash; text goes in as text, never as HTML.
 const report = JSON.parse(document.getElementById("report").textContent);
 const pictures = JSON.parse(document.getElementById("pictures").textContent);
-const scenes = report.scenes ?? [];
+const scenes = (report.scenes ?? []).map(scene => ({...scene, settings: scene.settings ?? []}));
 const byId = id => document.getElementById(id);
 
 /** An element: `make("td", {class: "number"}, "1.5")`. Children are nodes or text. */
@@ -65,7 +65,7 @@ function knobValue(name, value) {
 /** Knobs whose value differs between settings of the scene, with the values in the report's order. */
 function varyingKnobs(scene) {
   const found = new Map();
-  for (const setting of scene.settings ?? [])
+  for (const setting of scene.settings)
     for (const [name, value] of Object.entries(setting.knobs ?? {})) {
       if (!found.has(name)) found.set(name, new Set());
       found.get(name).add(String(value));

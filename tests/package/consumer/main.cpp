@@ -12,7 +12,8 @@ int main() {
     try {
         std::cout << "shaders " << std::filesystem::canonical(lobe::shaderDirectory()).string() << "\n"
                   << "worker "
-                  << std::filesystem::canonical(lobe::workerProgram("lobe-image-worker")).string() << "\n";
+                  << std::filesystem::canonical(lobe::workerProgram("lobe-image-worker")).string() << "\n"
+                  << "page " << std::filesystem::canonical(lobe::pageDirectory()).string() << "\n";
         const auto context = lobe::gl::Context::create();
 
         lobe::Scene scene;
