@@ -5,6 +5,7 @@
 
 #include "arguments.hpp"
 #include "base/atomic_file.hpp"
+#include "base/closest_name.hpp"
 #include "base/error.hpp"
 #include "commands.hpp"
 #include "image/image_files.hpp"
@@ -12,6 +13,7 @@
 #include "interrupt.hpp"
 #include "lobe_paths.hpp"
 #include "measure/against.hpp"
+#include "measure/cost.hpp"
 #include "measure/errors.hpp"
 #include "measure/machine.hpp"
 #include "measure/page.hpp"
@@ -26,11 +28,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr int kChartWidth = 960, kChartHeight = 640;  // pixels
+
 struct ReportArguments {
     std::vector<std::string> inputs;
     int settings = 40;
     double seconds = 480.0;
-    std::string metric = "relmse", against, from;
+    std::string metric = "relmse", against, from, cost;
     bool quiet = false;
 };
 
@@ -52,6 +56,11 @@ void addOptions(CLI::App& app, ReportArguments& r) {
         ->type_name("FILE");
     app.add_option("--from", r.from, "with --against: an earlier report.json, in place of scenes to measure")
         ->type_name("FILE");
+    app.add_option(
+           "--cost", r.cost,
+           "instead: how time grows with lights, pixels, triangles or materials, fitted; the knobs as "
+           "set. Writes cost_WHAT.json and .png")
+        ->type_name("WHAT");
     app.add_flag("-q,--quiet", r.quiet, "only errors");
 }
 
@@ -101,7 +110,6 @@ private:
 
 /// Settings of each scene.
 std::vector<Settings> settingsOf(const std::vector<fs::path>& files, SettingSources sources) {
-    requireNoKnobs(sources, "a report tries them all");
     // A report's own default, before what the command line says.
     sources.assignments.insert(sources.assignments.begin(), {Assignment::Kind::set, "resolution", "640,360"});
     std::vector<Settings> all;
@@ -139,8 +147,7 @@ void writeFiles(const json& report, const fs::path& folder, const std::string& m
     writeAtomically(folder / "report.json",
                     report.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
     writeAtomically(folder / "report.csv", measure::reportCsv(report));
-    constexpr int kWidth = 960, kHeight = 640;
-    writeAtomically(folder / "report.png", measure::reportChart(report, metric, kWidth, kHeight));
+    writeAtomically(folder / "report.png", measure::reportChart(report, metric, kChartWidth, kChartHeight));
     writeReportPage(report, folder);
 }
 
@@ -149,17 +156,110 @@ gl::ContextRequest contextOf(const Settings& settings) {
             .device = settings.get("device").get<int>()};
 }
 
+struct Work {
+    std::vector<fs::path> files;
+    std::vector<Settings> settings;
+    fs::path folder;
+    const ReportArguments& arguments;
+    const std::vector<std::string>& list;
+    const std::atomic<bool>& interrupted;
+};
+
+measure::ReportScene sceneOf(SceneLoader& loader, const Work& work, size_t i, std::set<std::string>& keys) {
+    const Settings& settings = work.settings[i];
+    measure::ReportScene scene;
+    scene.scene = preparedScene(
+        std::make_shared<const Scene>(loader.load(work.files[i], loadOptionsOf(settings))), settings);
+    for (const std::string& warning : scene.scene->warnings)
+        std::cerr << "lobe: warning: " << scene.scene->file << ": " << warning << '\n';
+    scene.camera = cameraOf(*scene.scene, settings, 0);
+    const RenderOptions options = renderOptionsOf(settings);
+    scene.width = options.width;
+    scene.height = options.height;
+    scene.key = uniqueKey(scene.scene->name, keys);
+    return scene;
+}
+
+measure::ReportEvents eventsOf(const Work& work) {
+    measure::ReportEvents events;
+    events.progress = [&work](const std::string& line) {
+        if (!work.arguments.quiet) std::cerr << line << '\n';
+    };
+    events.stop = &work.interrupted;
+    return events;
+}
+
+json measureReport(const Work& work, gl::Context& context) {
+    ReportPictures pictures(work.folder, work.settings.front());
+    json report = headOf(context.info(), work.list);
+    const measure::TruthSource truth = measure::convergedTruth(context);
+    measure::ReportEvents events = eventsOf(work);
+    events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
+    events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };
+    const measure::ReportEffort effort{.settings = work.arguments.settings,
+                                       .seconds = work.arguments.seconds};
+    SceneLoader loader;
+    std::set<std::string> keys;
+    for (size_t i = 0; i < work.files.size() && !work.interrupted; ++i) {
+        pictures.use(work.settings[i]);
+        json entry = measure::measureScene(context, sceneOf(loader, work, i, keys), truth, effort, events);
+        if (entry["settings"].empty()) break;
+        report["scenes"].push_back(std::move(entry));
+        report["pictures"] = pictures.names();
+        // After each scene: what is done stays, whatever comes.
+        writeFiles(report, work.folder, work.arguments.metric);
+    }
+    if (!work.arguments.quiet && !report["scenes"].empty())
+        std::cerr << "written: " << (work.folder / "report.json").string()
+                  << ", report.csv, report.png, report.html\n";
+    return report;
+}
+
+void measureCosts(const Work& work, gl::Context& context) {
+    const std::string& what = work.arguments.cost;
+    json report = headOf(context.info(), work.list);
+    for (const char* key : {"scenes", "pictures", "knobs"})
+        report.erase(key);
+    report["costs"] = json::array();
+    SceneLoader loader;
+    std::set<std::string> keys;
+    for (size_t i = 0; i < work.files.size() && !work.interrupted; ++i) {
+        const measure::ReportScene scene = sceneOf(loader, work, i, keys);
+        json cost = measure::measureCost(context, scene, qualityOf(work.settings[i]), what,
+                                         work.arguments.seconds, eventsOf(work));
+        if (cost.is_null()) break;
+        const json& fit = cost["fit"];
+        std::cout << scene.key << ": time = " << fit["constant_ms"] << " ms + " << fit["factor_ms"]
+                  << " ms * " << what << "^" << fit["exponent"] << "; exponent " << fit["exponent_low"]
+                  << " to " << fit["exponent_high"] << " (" << fit["confidence"] << "), misfit "
+                  << fit["misfit"] << '\n';
+        report["costs"].push_back(std::move(cost));
+        writeAtomically(work.folder / ("cost_" + what + ".json"),
+                        report.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+        writeAtomically(work.folder / ("cost_" + what + ".png"),
+                        measure::costChart(report["costs"], kChartWidth, kChartHeight));
+    }
+}
+
+void requireCostName(const std::string& what) {
+    const std::vector<std::string>& names = measure::costNames();
+    if (!what.empty() && std::find(names.begin(), names.end(), what) == names.end())
+        throw UsageError("--cost " + what + "; expected one of " + listed(names) + didYouMean(what, names));
+}
+
 }  // namespace
 
 int reportCommand(const std::vector<std::string>& list) {
-    Arguments arguments(
-        "report",
-        "Measure error against run time of quality settings, and write report.html, report.json, "
-        "report.csv, report.png and pictures into the folder -o [report].");
+    Arguments arguments("report",
+                        "Measure error against run time of quality settings, and write report.html, "
+                        "report.json, report.csv, report.png and pictures into the folder -o [report].");
     ReportArguments r;
     addOptions(arguments.app(), r);
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;
+    requireCostName(r.cost);
+    if (!r.cost.empty() && !(r.against.empty() && r.from.empty()))
+        throw UsageError("--cost goes without --against and --from");
     if (!r.from.empty()) {
         if (r.against.empty() || !r.inputs.empty())
             throw UsageError("--from goes with --against and without scenes");
@@ -168,49 +268,20 @@ int reportCommand(const std::vector<std::string>& list) {
     }
     if (!r.against.empty()) measure::readReport(r.against);  // a wrong one is found before the work
     if (r.inputs.empty()) throw UsageError("nothing to measure; expected scenes");
+    const SettingSources sources = arguments.sources();
+    if (r.cost.empty()) requireNoKnobs(sources, "a report tries them all");
     const std::vector<fs::path> files = sceneFiles(r.inputs);
-    const std::vector<Settings> settings = settingsOf(files, arguments.sources());
+    const std::vector<Settings> settings = settingsOf(files, sources);
     const json& output = settings.front().get("output");
-    const fs::path folder = output.is_null() ? "report" : output.get<std::string>();
-
-    const std::atomic<bool>& interrupted = catchInterrupts();
+    const Work work{files, settings, output.is_null() ? "report" : output.get<std::string>(),
+                    r,     list,     catchInterrupts()};
     const auto context = gl::Context::create(contextOf(settings.front()));
-    const measure::TruthSource truth = measure::convergedTruth(*context);
-    ReportPictures pictures(folder, settings.front());
-    json report = headOf(context->info(), list);
-    measure::ReportEvents events;
-    events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
-    events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };
-    events.progress = [&](const std::string& line) {
-        if (!r.quiet) std::cerr << line << '\n';
-    };
-    events.stop = &interrupted;
-    SceneLoader loader;
-    std::set<std::string> keys;
-    for (size_t i = 0; i < files.size() && !interrupted; ++i) {
-        pictures.use(settings[i]);
-        measure::ReportScene scene;
-        scene.scene = preparedScene(
-            std::make_shared<const Scene>(loader.load(files[i], loadOptionsOf(settings[i]))), settings[i]);
-        for (const std::string& warning : scene.scene->warnings)
-            std::cerr << "lobe: warning: " << scene.scene->file << ": " << warning << '\n';
-        scene.camera = cameraOf(*scene.scene, settings[i], 0);
-        const RenderOptions options = renderOptionsOf(settings[i]);
-        scene.width = options.width;
-        scene.height = options.height;
-        scene.key = uniqueKey(scene.scene->name, keys);
-        json entry = measure::measureScene(*context, scene, truth,
-                                           {.settings = r.settings, .seconds = r.seconds}, events);
-        if (entry["settings"].empty()) break;
-        report["scenes"].push_back(std::move(entry));
-        report["pictures"] = pictures.names();
-        // After each scene: what is done stays, whatever comes.
-        writeFiles(report, folder, r.metric);
+    if (!r.cost.empty()) {
+        measureCosts(work, *context);
+        return work.interrupted ? kInterruptedExit : 0;
     }
-    if (!r.quiet && !report["scenes"].empty())
-        std::cerr << "written: " << (folder / "report.json").string()
-                  << ", report.csv, report.png, report.html\n";
-    if (interrupted) return kInterruptedExit;
+    const json report = measureReport(work, *context);
+    if (work.interrupted) return kInterruptedExit;
     if (!r.against.empty()) printChanges(report, r.against);
     return 0;
 }

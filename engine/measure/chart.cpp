@@ -52,7 +52,42 @@ std::vector<Dot> dotsOf(const json& scene, const std::string& metric) {
     return dots;
 }
 
+std::string frameCommands(int width, int height) {
+    return "set terminal pngcairo size " + std::to_string(width) + "," + std::to_string(height) +
+           " font \"sans,11\"\nset encoding utf8\nset output\nset border linewidth 1 linecolor rgb "
+           "\"#444444\"\n"
+           "set tics nomirror\nset grid linecolor rgb \"#dddddd\"\nset logscale xy\nset format x \"%g\"\n";
+}
+
 }  // namespace
+
+std::string costChart(const json& costs, int width, int height) {
+    std::string blocks, plots;
+    size_t index = 0;
+    for (const json& cost : costs) {
+        const std::string n = std::to_string(index), colour = plot::seriesColor(index++);
+        std::vector<std::string> points;
+        for (const json& point : cost["points"])
+            points.push_back(number(point["count"]) + " " + number(point["median_ms"]) + " " +
+                             number(point["low_ms"]) + " " + number(point["high_ms"]));
+        blocks += plot::dataBlock("points" + n, points);
+        const json& fit = cost["fit"];
+        std::ostringstream title;
+        title.precision(3);
+        title << cost["scene"].get<std::string>() << ": exponent " << fit["exponent"].get<double>() << " ("
+              << fit["exponent_low"].get<double>() << " to " << fit["exponent_high"].get<double>() << ")";
+        plots += std::string(plots.empty() ? "" : ", ") + "$points" + n +
+                 " using 1:2:3:4 with yerrorbars pointtype 7 linecolor rgb \"" + colour + "\" notitle, " +
+                 number(fit["constant_ms"]) + " + " + number(fit["factor_ms"]) + " * x ** " +
+                 number(fit["exponent"]) + " with lines linewidth 2 linecolor rgb \"" + colour + "\" title " +
+                 plot::gnuplotText(title.str()) + " noenhanced";
+    }
+    return plot::runGnuplot(
+        frameCommands(width, height) + "set format y \"%g\"\nset key top left noenhanced\n" +
+        "set samples 500\nset xlabel " +
+        plot::gnuplotText("number of " + costs[0]["what"].get<std::string>()) + " noenhanced\nset ylabel " +
+        plot::gnuplotText("time of a frame, ms") + " noenhanced\n" + blocks + "plot " + plots + "\n");
+}
 
 std::string reportChart(const json& report, const std::string& metric, int width, int height) {
     std::string blocks, plots, labels;
@@ -89,16 +124,13 @@ std::string reportChart(const json& report, const std::string& metric, int width
     if (plots.empty())
         throw Error(ExitCode::checkFailed, "no setting with a time and an error above 0 to draw");
     const std::string clock = report["context"].value("clock", "");
-    return plot::runGnuplot(
-        "set terminal pngcairo size " + std::to_string(width) + "," + std::to_string(height) +
-        " font \"sans,11\"\nset encoding utf8\nset output\nset border linewidth 1 linecolor rgb \"#444444\"\n"
-        "set tics nomirror\nset grid linecolor rgb \"#dddddd\"\nset logscale xy\nset format x \"%g\"\n"
-        "set format y \"10^{%T}\"\nset key top right noenhanced\n"
-        "set xrange [" +
-        number(fastest * 0.7) + ":" + number(slowest * 2.0) + "]\nset yrange [" + number(lowest * 0.5) + ":" +
-        number(highest * 2.0) + "]\nset xlabel " + plot::gnuplotText("time of a frame, ms (" + clock + ")") +
-        " noenhanced\nset ylabel " + plot::gnuplotText(axisOf(metric)) + " noenhanced\n" + blocks + labels +
-        "plot " + plots + "\n");
+    return plot::runGnuplot(frameCommands(width, height) +
+                            "set format y \"10^{%T}\"\nset key top right noenhanced\nset xrange [" +
+                            number(fastest * 0.7) + ":" + number(slowest * 2.0) + "]\nset yrange [" +
+                            number(lowest * 0.5) + ":" + number(highest * 2.0) + "]\nset xlabel " +
+                            plot::gnuplotText("time of a frame, ms (" + clock + ")") +
+                            " noenhanced\nset ylabel " + plot::gnuplotText(axisOf(metric)) + " noenhanced\n" +
+                            blocks + labels + "plot " + plots + "\n");
 }
 
 }  // namespace lobe::measure

@@ -16,6 +16,9 @@ std::string reportCsv(const nlohmann::json& report);
 /// plot::runGnuplot does.
 std::string reportChart(const nlohmann::json& report, const std::string& metric, int width, int height);
 
+/// PNG of what measureCost() gave, a scene a line, with the fitted curves; logarithmic axes. Throws likewise.
+std::string costChart(const nlohmann::json& costs, int width, int height);
+
 /// A report read back. Throws InputError for what is none, or of another schema.
 nlohmann::json readReport(const std::filesystem::path& file);
 

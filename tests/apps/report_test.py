@@ -29,7 +29,7 @@ def wronger(setting):
 
 
 class Report(LobeTest):
-    SIZE = ("-r", 48, 32)
+    SIZE = ("-r", 48, 32, "--camera-azimuth", 33, "--camera-elevation", 21)  # edges along no row of pixels
 
     def report(self, *arguments, **keywords):
         return self.lobe("report", *arguments, "--max-settings", 6, "--max-time", 20, *self.SIZE, **keywords)
@@ -48,7 +48,8 @@ class Report(LobeTest):
             self.assertGreater((self.folder / "out" / name).stat().st_size, 100, name)
         for file in report["pictures"].values():
             self.assertEqual(png_pixels(self.folder / "out" / file)[:2], (48, 32), file)
-        rows = list(csv.DictReader((self.folder / "out/report.csv").open(newline="")))
+        with (self.folder / "out/report.csv").open(newline="") as file:
+            rows = list(csv.DictReader(file))
         settings = [setting for scene in report["scenes"] for setting in scene["settings"]]
         self.assertEqual(len(rows), len(settings))
         for row, setting in zip(rows, settings):
@@ -127,7 +128,7 @@ class Report(LobeTest):
 
     def test_interrupted_work_leaves_what_is_done(self):
         other = self.write("other.gltf", quad_scene())
-        arguments = [LOBE, "report", self.scene, other, "-o", "out", "--max-settings", "4", "-r", "640", "360"]
+        arguments = [LOBE, "report", self.scene, other, "-o", "out", "--max-settings", "12", "-r", "640", "360"]
         with subprocess.Popen(arguments, cwd=self.folder, stderr=subprocess.PIPE, text=True,
                               env=dict(os.environ, XDG_CONFIG_HOME=str(self.folder))) as process:
             for line in process.stderr:
@@ -136,8 +137,15 @@ class Report(LobeTest):
             self.assertEqual(process.wait(60), 130)
         report = self.read()
         self.assertEqual([scene["scene"] for scene in report["scenes"]], ["quad", "other"])
-        self.assertEqual(len(report["scenes"][1]["settings"]), 2)
+        self.assertIn(len(report["scenes"][1]["settings"]), range(2, 12))
         self.assertFalse([name for name in self.files() if name.startswith("out/.")])
+
+    def test_cost_is_fitted(self):
+        self.lobe("report", "--cost", "pixels", self.scene, "-o", "out", "-r", 160, 120, "--max-time", 10, "-q")
+        cost = self.read("out/cost_pixels.json")["costs"][0]
+        self.assertEqual([point["count"] for point in cost["points"]], [1200, 4800, 10800, 19200, 43200])
+        self.assertLessEqual(cost["fit"]["exponent_low"], cost["fit"]["exponent_high"])
+        self.assertGreater((self.folder / "out/cost_pixels.png").stat().st_size, 1000)
 
     def test_mistakes_end_in_one_line(self):
         self.write("none.json", "{}")
@@ -154,6 +162,8 @@ class Report(LobeTest):
                 (["report", "--from", "schema.json", "--against", "none.json"], 3, "schema 99; expected 1"),
                 (["report", "--from", "damaged.json", "--against", "none.json"], 3, "damaged"),
                 (["report", self.scene, "--against", "missing.json"], 3, "missing.json"),
+                (["report", self.scene, "--cost", "light"], 2, "did you mean 'lights'?"),
+                (["report", self.scene, "--cost", "lights", "--against", "none.json"], 2, "--cost goes without"),
                 (["render", self.scene, "--report", "none.json"], 2, "--report without"),
                 (["render", self.scene, "--max-error", "-1"], 2, "--max-error"),
                 (["render", self.scene, "--budget", "fast"], 2, "expected a time above 0"),
