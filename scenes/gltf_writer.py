@@ -64,6 +64,7 @@ class Gltf:
                      "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": [], "cameras": []}
         self.data = bytearray()
         self.lights = []
+        self.area_lights = []
 
     def extension(self, name):
         used = self.json.setdefault("extensionsUsed", [])
@@ -130,14 +131,18 @@ class Gltf:
             self.json["scenes"][0]["nodes"].append(index)
         return index
 
-    def light(self, kind, intensity, color=(1, 1, 1), position=None, toward=None, range=None, cone=None):
-        """toward: the way a directional or spot light shines; cone: inner and outer angle in degrees."""
+    def light(self, kind, intensity, color=(1, 1, 1), position=None, toward=None, range=None, cone=None, shape=None):
+        """toward: the way a directional or spot light shines; cone: inner and outer angle in degrees; shape: the object of
+        LOBE_light_shape."""
         self.extension("KHR_lights_punctual")
         entry = {"type": kind, "intensity": intensity, "color": list(color)}
         if range is not None:
             entry["range"] = range
         if cone is not None:
             entry["spot"] = {"innerConeAngle": math.radians(cone[0]), "outerConeAngle": math.radians(cone[1])}
+        if shape is not None:
+            self.extension("LOBE_light_shape")
+            entry["extensions"] = {"LOBE_light_shape": shape}
         self.lights.append(entry)
         content = {"extensions": {"KHR_lights_punctual": {"light": len(self.lights) - 1}}}
         if position is not None:
@@ -145,6 +150,16 @@ class Gltf:
         if toward is not None:
             content["rotation"] = look_rotation(toward)
         self.node(**content)
+
+    def area_light(self, kind, radiance, size, position, toward, color=(1, 1, 1), aspect=1):
+        """EXT_lights_area: kind is rect (size: its height; aspect: width / height) or disk (size: its diameter)."""
+        self.extension("EXT_lights_area")
+        entry = {"type": kind, "intensity": radiance, "color": list(color), "size": size}
+        if kind == "rect":
+            entry["rect"] = {"aspect": aspect}
+        self.area_lights.append(entry)
+        self.node(translation=list(position), rotation=look_rotation(toward),
+                  extensions={"EXT_lights_area": {"light": len(self.area_lights) - 1}})
 
     def ambient(self, radiance):
         self.extension("LOBE_ambient")
@@ -159,7 +174,9 @@ class Gltf:
     def write(self, path):
         content = {key: value for key, value in self.json.items() if value or key in ("scene", "scenes", "nodes")}
         if self.lights:
-            content["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
+            content.setdefault("extensions", {})["KHR_lights_punctual"] = {"lights": self.lights}
+        if self.area_lights:
+            content.setdefault("extensions", {})["EXT_lights_area"] = {"lights": self.area_lights}
         content["buffers"] = [{"byteLength": len(self.data),
                                "uri": "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()}]
 

@@ -566,6 +566,43 @@ def ball_scene(material, scale=1.0, offset=(0, 0, 0), with_light=True):
     return g
 
 
+def soft_light():
+    """A ball on the ground under one rectangular light."""
+    g = Gltf()
+    place(g, ground(4), g.material("ground", (0.6, 0.6, 0.6), 0.0, 0.6), uvs=False)
+    place(g, sphere(48, 0.8), g.material("ball", (0.8, 0.35, 0.2), 0.0, 0.35), translation=(0, 0.8, 0), uvs=False)
+    g.area_light("rect", 12.0, 1.2, (-1.2, 3.0, 0.8), (0.4, -1, -0.25), aspect=1.5)
+    g.camera((0, 1.8, 4.6), (0, 0.6, 0))
+    return g
+
+
+def interior():
+    """A room with one light of each type that has a body, and balls of several models."""
+    g = Gltf()
+    wall = g.material("wall", (0.7, 0.68, 0.64), 0.0, 0.9)
+    turned = axis_rotation
+    floor = g.material("floor", (0.35, 0.28, 0.22), 0.0, 0.35)
+    place(g, upright(3, 3), floor, translation=(0, 0, 0), rotation=turned((1, 0, 0), -90), uvs=False)
+    place(g, upright(3, 3), wall, translation=(0, 3, 0), rotation=turned((1, 0, 0), 90), uvs=False)
+    place(g, upright(3, 1.5), wall, translation=(0, 1.5, -3), uvs=False)
+    place(g, upright(3, 1.5), g.material("red wall", (0.7, 0.25, 0.2), 0.0, 0.9), translation=(-3, 1.5, 0), rotation=turned((0, 1, 0), 90), uvs=False)
+    place(g, upright(3, 1.5), g.material("blue wall", (0.2, 0.3, 0.65), 0.0, 0.9), translation=(3, 1.5, 0), rotation=turned((0, 1, 0), -90), uvs=False)
+    balls = (("lambert", {"diffuse": [0.7, 0.7, 0.7]}),
+             ("ggx", {"alphaX": 0.15, "alphaY": 0.15, "fresnel": {"type": "metal", "name": "gold"}}),
+             ("cook_torrance", {"m": 0.25, "fresnel": {"type": "metal", "name": "copper"}}),
+             ("ward", {"diffuse": [0.1, 0.3, 0.15], "specular": [0.2, 0.2, 0.2], "alpha": 0.2}),
+             ("phong", {"diffuse": [0.2, 0.2, 0.5], "specular": [0.4, 0.4, 0.4], "shininess": 60, "normalization": "energy"}))
+    for i, (model, parameters) in enumerate(balls):
+        place(g, sphere(32, 0.42), g.material(model, brdf={"model": model, **parameters}), translation=(-2.0 + i, 0.42, 0.35 * (-1) ** i), uvs=False)
+    place(g, box(0.9, 1.1, 0.5), g.material("crate", (0.5, 0.4, 0.3), 0.0, 0.7), translation=(1.6, 0.55, -1.9), rotation=turned((0, 1, 0), 25), uvs=False)
+    g.area_light("rect", 6.0, 0.8, (0, 2.98, -0.5), (0, -1, 0), aspect=1.6)
+    g.area_light("disk", 8.0, 0.5, (-2.8, 1.9, -1.0), (1, -0.45, 0.3), color=(1, 0.8, 0.55))
+    g.light("point", 0.9, color=(0.6, 0.8, 1), position=(1.6, 1.35, -1.9), shape={"shape": "sphere", "radius": 0.12})
+    g.light("point", 0.8, color=(1, 0.6, 0.7), position=(0, 1.1, -2.85), shape={"shape": "tube", "radius": 0.03, "length": 1.6})
+    g.camera((0, 1.5, 4.9), (0, 1.05, -0.5), degrees=42)
+    return g
+
+
 def extreme():
     shiny = {"model": "blinn_phong", "diffuse": [0.2] * 3, "specular": [0.8] * 3, "shininess": 1e6, "normalization": "energy"}
     yield "roughness_0", ball_scene(lambda g: g.material("mirror-like", (0.9, 0.9, 0.9), 1.0, 0.0))
@@ -617,7 +654,8 @@ def main():
     merl_table(folder / "data/metallic_paint.binary", (32, 24), metallic_paint)
     for name, make in (("white_plane", white_plane), ("spheres", spheres), ("lights", lights), ("teapot", teapots), ("textured", textured),
                        ("blend", blend), ("many_lights", many_lights), ("animated", animated), ("vases", vases),
-                       ("teapot_normals", teapot_normals), ("models", models)):
+                       ("teapot_normals", teapot_normals), ("models", models), ("soft_light", soft_light),
+                       ("interior", interior)):
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme():
         scene.write(folder / "extreme" / f"{name}.gltf")

@@ -7,6 +7,8 @@
 namespace lobe::app {
 
 int renderCommand(const std::vector<std::string>& arguments);
+/// `lobe reference SCENE`: docs/reference.md.
+int referenceCommand(const std::vector<std::string>& arguments);
 int planCommand(const std::vector<std::string>& arguments);
 /// `lobe plot KIND`: docs/plots.md.
 int plotCommand(const std::vector<std::string>& arguments);

@@ -14,6 +14,7 @@ using Command = int (*)(const std::vector<std::string>&);
 constexpr const char* kUsage =
     "usage: lobe COMMAND [OPTION...]\n"
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
+    "  reference SCENE -o truth.exr         the true picture, with the error that it still has\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
     "  report SCENE... -o report/           error against run time of quality settings\n"
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
@@ -26,10 +27,11 @@ constexpr const char* kUsage =
 
 int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {
-        {"render", lobe::app::renderCommand},   {"plan", lobe::app::planCommand},
+        {"render", lobe::app::renderCommand},   {"reference", lobe::app::referenceCommand},
+        {"compare", lobe::app::compareCommand}, {"plan", lobe::app::planCommand},
         {"models", lobe::app::modelsCommand},   {"plot", lobe::app::plotCommand},
-        {"compare", lobe::app::compareCommand}, {"info", lobe::app::infoCommand},
-        {"report", lobe::app::reportCommand},   {"help", lobe::app::helpCommand}};
+        {"info", lobe::app::infoCommand},       {"report", lobe::app::reportCommand},
+        {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");

@@ -6,11 +6,9 @@
 #include "shot_scene.hpp"
 
 namespace lobe::app {
-namespace {
-
 using nlohmann::json;
 
-json toJson(const Camera& camera) {
+json cameraRecord(const Camera& camera) {
     json matrix = json::array();
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
@@ -25,8 +23,6 @@ json toJson(const Camera& camera) {
     return result;
 }
 
-}  // namespace
-
 json recordOf(const Shot& shot, const Scene& scene, const Camera& camera, const gl::ContextInfo& context) {
     json settings = shot.settings->toJson();
     // Where a picture lies does not change it, nor does how its context was asked for: which one it became
@@ -40,7 +36,7 @@ json recordOf(const Shot& shot, const Scene& scene, const Camera& camera, const 
                    {"lobe", paths::kVersion},
                    {"scene", std::filesystem::absolute(shot.scene).lexically_normal().string()},
                    {"scene_hash", scene.contentHash},
-                   {"camera", toJson(camera)},
+                   {"camera", cameraRecord(camera)},
                    {"frame", shot.frame},
                    {"settings", settings},
                    {"knobs", knobsOf(qualityOf(*shot.settings))},

@@ -14,6 +14,9 @@ namespace lobe::app {
 
 inline constexpr const char* kRecordKey = "lobe:record";
 
+/// Pose and lens.
+nlohmann::json cameraRecord(const Camera& camera);
+
 /// All that decides the pixels: settings, quality knobs that follow from them, camera, frame, scene with
 /// content hash, version, driver.
 nlohmann::json recordOf(const Shot& shot, const Scene& scene, const Camera& camera,

@@ -34,7 +34,8 @@ struct ReportArguments {
     std::vector<std::string> inputs;
     int settings = 40;
     double seconds = 480.0;
-    std::string metric = "relmse", against, from, cost;
+    double truthSeconds = 120.0;
+    std::string truth = "converged", metric = "relmse", against, from, cost;
     bool quiet = false;
 };
 
@@ -48,6 +49,14 @@ void addOptions(CLI::App& app, ReportArguments& r) {
                    "how long to measure a scene, its truth apart; in less time less is measured [480], s")
         ->type_name("S")
         ->check(CLI::Range(1.0, 1e6));
+    app.add_option("--truth", r.truth,
+                   "converged: this engine with 64 samples; reference: double precision, with shadows; "
+                   "unshadowed: the same without [converged]")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"converged", "reference", "unshadowed"}));
+    app.add_option("--truth-time", r.truthSeconds, "how long to compute a reference at most [120], s")
+        ->type_name("S")
+        ->check(CLI::PositiveNumber);
     app.add_option("--error-metric", r.metric, "which error the chart shows [relmse]")
         ->type_name("NAME")
         ->check(CLI::IsMember(measure::errorMetricNames()));
@@ -192,12 +201,15 @@ measure::ReportEvents eventsOf(const Work& work) {
 json measureReport(const Work& work, gl::Context& context) {
     ReportPictures pictures(work.folder, work.settings.front());
     json report = headOf(context.info(), work.list);
-    const measure::TruthSource truth = measure::convergedTruth(context);
+    const ReportArguments& arguments = work.arguments;
+    const measure::TruthSource truth =
+        arguments.truth == "converged" ? measure::convergedTruth(context)
+                                       : measure::referenceTruth(arguments.truth == "reference",
+                                                                 arguments.truthSeconds, work.interrupted);
     measure::ReportEvents events = eventsOf(work);
     events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
     events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };
-    const measure::ReportEffort effort{.settings = work.arguments.settings,
-                                       .seconds = work.arguments.seconds};
+    const measure::ReportEffort effort{.settings = arguments.settings, .seconds = arguments.seconds};
     SceneLoader loader;
     std::set<std::string> keys;
     for (size_t i = 0; i < work.files.size() && !work.interrupted; ++i) {

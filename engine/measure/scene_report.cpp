@@ -261,7 +261,7 @@ private:
 json measureScene(gl::Context& context, const ReportScene& scene, const TruthSource& truthSource,
                   const ReportEffort& effort, const ReportEvents& events) {
     events.progress(scene.key + ": truth");
-    const Truth truth = truthSource(*scene.scene, scene.camera, scene.width, scene.height);
+    const Truth truth = truthSource(scene.scene, scene.camera, scene.width, scene.height);
     const std::string picture = scene.key + "_truth";
     events.picture(picture, truth.image);
     json entry = SceneMeasurement(context, scene, effort, events).run(truth);

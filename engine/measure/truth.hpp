@@ -1,7 +1,9 @@
 /// What settings are measured against.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "gl/context.hpp"
@@ -20,10 +22,15 @@ struct Truth {
     std::string note;
 };
 
-using TruthSource = std::function<Truth(const Scene&, const Camera&, int width, int height)>;
+using TruthSource =
+    std::function<Truth(const std::shared_ptr<const Scene>&, const Camera&, int width, int height)>;
 
 /// The engine's own `converged` preset with more samples: knows nothing of errors that all settings share, in
 /// the shading itself. The context must be current and outlive the source.
 TruthSource convergedTruth(gl::Context& context);
+
+/// reference::computeTruth(), the mean over each pixel, to 0.2 % or for as long as `seconds`. Throws
+/// UsageError for a model without a twin.
+TruthSource referenceTruth(bool shadows, double seconds, const std::atomic<bool>& stop);
 
 }  // namespace lobe::measure

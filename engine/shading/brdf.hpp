@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "shading/sampling_lobe.hpp"
+
 namespace lobe {
 
 /// A number, an RGB triple, a choice among named variants (stored as its index), or a table (stored as the
@@ -126,6 +128,9 @@ struct Brdf {
     /// Width of the sharpest lobe that these values give, as the largest |d ln f / d theta_h| in 1/rad
     /// (algorithms: 2/alpha for GGX, sqrt(n) for Blinn-Phong, 2 sqrt(n) for Phong, 0 for Lambert).
     std::function<double(std::span<const double>)> lobeSharpness;
+
+    /// Lobes from which to draw wi for this wo (sampling.hpp). Absent: found from fCos.
+    std::function<SamplingLobes(const glm::dvec3& wo, std::span<const double>)> samplingLobes;
 
     /// Values that imitate a metallic-roughness surface, for `--brdf NAME` on a whole scene.
     std::function<ParameterValues(const MetallicRoughness&)> fromMetallicRoughness;

@@ -23,6 +23,11 @@ glm::dvec3 microfacetAmbient(std::span<const double> values) {
     return rgbAt(values, 0) + rgbAt(values, 3) * fresnelReflectance(values.last(kFresnelValues), 1.0);
 }
 
+SamplingLobes microfacetLobes(const glm::dvec3& wo, std::span<const double> values, SamplingLobe lobe) {
+    lobe.weight = meanOf(rgbAt(values, 3) * fresnelReflectance(values.last(kFresnelValues), wo.z));
+    return baseAndLobe(meanOf(rgbAt(values, 0)), lobe);
+}
+
 ParameterValues microfacetFromMetallicRoughness(const MetallicRoughness& surface,
                                                 const std::vector<double>& lobe) {
     const glm::dvec3 diffuse = surface.baseColor * (1.0 - surface.metallic) * (1.0 - kDielectricF0);

@@ -15,6 +15,9 @@ glm::dvec3 microfacetFCos(const Directions& d, std::span<const double> values, d
 /// k_d + k_s F at normal incidence.
 glm::dvec3 microfacetAmbient(std::span<const double> values);
 
+/// Weights k_d and k_s F at wo; `lobe` says the rest.
+SamplingLobes microfacetLobes(const glm::dvec3& wo, std::span<const double> values, SamplingLobe lobe);
+
 /// k_d = 0.96 (1 - metallic) base colour, k_s = 1, Schlick's F with glTF's normal reflectance; `lobe` has the
 /// values of the lobe's own parameters.
 ParameterValues microfacetFromMetallicRoughness(const MetallicRoughness& surface,

@@ -66,4 +66,11 @@ glm::dvec3 rgbAt(std::span<const double> values, size_t offset) {
     return {values[offset], values[offset + 1], values[offset + 2]};
 }
 
+SamplingLobes baseAndLobe(double base, const SamplingLobe& lobe) {
+    SamplingLobes lobes;
+    lobes.add({LobeShape::cosine, base});
+    lobes.add(lobe);
+    return lobes;
+}
+
 }  // namespace lobe::shading

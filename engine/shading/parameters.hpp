@@ -22,6 +22,14 @@ Parameter tableParameter(std::string name, std::string description);
 /// Three values from `offset` on.
 glm::dvec3 rgbAt(std::span<const double> values, size_t offset);
 
+/// Mean of the channels.
+inline double meanOf(const glm::dvec3& rgb) {
+    return (rgb.r + rgb.g + rgb.b) / 3.0;
+}
+
+/// A cosine lobe for the base and one more, whose weights are their albedos, for Brdf::samplingLobes.
+SamplingLobes baseAndLobe(double base, const SamplingLobe& lobe);
+
 /// Whether both directions leave the upper side; every model is 0 elsewhere.
 inline bool aboveSurface(const Directions& d) {
     return d.wi.z > 0.0 && d.wo.z > 0.0;

@@ -140,6 +140,17 @@ class Report(LobeTest):
         self.assertIn(len(report["scenes"][1]["settings"]), range(2, 12))
         self.assertFalse([name for name in self.files() if name.startswith("out/.")])
 
+    def test_the_reference_and_the_converged_picture_agree_where_nothing_casts_shadows(self):
+        pictures = {}
+        for truth in ("converged", "reference", "unshadowed"):
+            self.report(self.scene, "-o", truth, "-q", "--truth", truth)
+            scene = self.read(truth + "/report.json")["scenes"][0]
+            pictures[truth] = scene
+            self.assertEqual(scene["truth"]["method"], "converged" if truth == "converged" else "reference")
+        by_truth = {truth: next(s["error"]["shading_relmse"] for s in scene["settings"] if s["preset"] == "converged")
+                    for truth, scene in pictures.items()}
+        self.assertLess(max(by_truth.values()), 1e-5, "inside the square all three agree to 0.3 %")
+
     def test_cost_is_fitted(self):
         self.lobe("report", "--cost", "pixels", self.scene, "-o", "out", "-r", 160, 120, "--max-time", 10, "-q")
         cost = self.read("out/cost_pixels.json")["costs"][0]

@@ -72,6 +72,12 @@ Brdf ashikhmin_shirley() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return std::sqrt(std::max(values[6], values[7]));
     };
+    brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
+        const Values p = valuesOf(values);
+        const double fresnel = meanOf(p.specular + (1.0 - p.specular) * std::pow(1.0 - wo.z, 5.0));
+        return baseAndLobe(meanOf(p.diffuse * (1.0 - p.specular)),
+                           {LobeShape::powerNormals, fresnel, p.nu, p.nv, p.rotation});
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         // The coat takes its share of the base by itself.
         const glm::dvec3 diffuse = surface.baseColor * (1.0 - surface.metallic);

@@ -22,6 +22,16 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     return (p.diffuse / glm::pi<double>() + p.specular * (energyConstant(p.shininess) * lobe)) * d.wi.z;
 }
 
+/// Half vectors with density cos^(n + 1).
+SamplingLobes lobes(const glm::dvec3&, std::span<const double> values) {
+    const shading::PhongValues p = shading::phongValues(values);
+    // Of the classic form, in units of pi: k_d, and 8 / (n + 2) for the lobe.
+    const double scale = p.energy ? 1.0 : 8.0 / (p.shininess + 2.0);
+    return shading::baseAndLobe(
+        shading::meanOf(p.diffuse),
+        {LobeShape::powerNormals, scale * shading::meanOf(p.specular), p.shininess + 1.0, p.shininess + 1.0});
+}
+
 }  // namespace
 
 Brdf blinn_phong() {
@@ -39,6 +49,7 @@ Brdf blinn_phong() {
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.samplingLobes = lobes;
     brdf.ambient = phongAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         const PhongValues p = phongValues(values);

@@ -41,6 +41,9 @@ Brdf cook_torrance() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / values[6] : 0.0;
     };
+    brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
+        return microfacetLobes(wo, values, {LobeShape::gaussianSlopes, 0.0, values[6], values[6]});
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         return microfacetFromMetallicRoughness(surface,
                                                {std::max(surface.roughness * surface.roughness, kMinSlope)});

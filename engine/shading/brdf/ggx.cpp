@@ -64,6 +64,10 @@ Brdf ggx() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / std::min(values[6], values[7]) : 0.0;
     };
+    brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
+        return microfacetLobes(wo, values,
+                               {LobeShape::ggxVisibleNormals, 0.0, values[6], values[7], values[8]});
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         const double alpha = std::max(surface.roughness * surface.roughness, kMinAlpha);
         return microfacetFromMetallicRoughness(surface, {alpha, alpha, 0.0});

@@ -86,6 +86,28 @@ double sharpness(std::span<const double> values) {
     return 2.0 * std::sqrt(n);
 }
 
+/// As Phong's about the vector w of components C wo; the lobe carries |w|^n.
+SamplingLobes samplingLobes(const glm::dvec3& wo, std::span<const double> values) {
+    SamplingLobes lobes;
+    lobes.add({LobeShape::cosine, shading::meanOf(rgbAt(values, 0))});
+    const std::span<const double> table = values.subspan(4);
+    const auto count = static_cast<size_t>(table[0]);
+    for (size_t i = 0; i < count; ++i) {
+        const size_t first = 4 * (1 + kRowsPerLobe * i);
+        for (size_t c = 0; c < 3; ++c) {
+            const glm::dvec3 w(table[first + c] * wo.x, table[first + 4 + c] * wo.y,
+                               table[first + 8 + c] * wo.z);
+            const double length = glm::length(w), n = table[first + 12 + c];
+            if (length == 0.0) continue;
+            // A mean cosine of the light's side stands for the lobe's part below the horizon.
+            const double cosine = std::max(w.z / length, 0.1);
+            const double albedo = std::pow(length, n) * 2.0 * glm::pi<double>() / (n + 1.0) * cosine / 3.0;
+            lobes.add({LobeShape::power, albedo, n, 0.0, 0.0, w / length});
+        }
+    }
+    return lobes;
+}
+
 /// A diffuse part as Phong's, and one lobe about the mirrored direction: normalised Phong of exponent n.
 ParameterValues fromMetallicRoughness(const MetallicRoughness& surface) {
     const glm::dvec3 diffuse = surface.baseColor * (1.0 - surface.metallic) * (1.0 - shading::kDielectricF0);
@@ -140,6 +162,7 @@ Brdf lafortune() {
     brdf.traits.usesTangent = true;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.samplingLobes = samplingLobes;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = sharpness;
     brdf.fromMetallicRoughness = fromMetallicRoughness;

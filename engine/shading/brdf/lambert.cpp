@@ -19,6 +19,11 @@ Brdf lambert() {
     };
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
+    brdf.samplingLobes = [](const glm::dvec3&, std::span<const double>) {
+        SamplingLobes lobes;
+        lobes.add({LobeShape::cosine});
+        return lobes;
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         return ParameterValues{surface.baseColor.r, surface.baseColor.g, surface.baseColor.b};
     };

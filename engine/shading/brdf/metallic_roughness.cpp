@@ -71,6 +71,13 @@ Brdf metallic_roughness() {
     brdf.fCos = fCos;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double> values) { return 2.0 / alphaOf(values[4]); };
+    brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
+        const glm::dvec3 f0 = glm::mix(glm::dvec3(kDielectricF0), rgbAt(values, 0), values[3]);
+        const double fresnel = meanOf(f0 + (1.0 - f0) * std::pow(1.0 - wo.z, 5.0));
+        const double alpha = alphaOf(values[4]);
+        return baseAndLobe((1.0 - values[3]) * meanOf(rgbAt(values, 0)) * (1.0 - fresnel),
+                           {LobeShape::ggxVisibleNormals, fresnel, alpha, alpha});
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         return ParameterValues{surface.baseColor.r, surface.baseColor.g, surface.baseColor.b,
                                surface.metallic, surface.roughness};

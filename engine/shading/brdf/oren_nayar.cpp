@@ -107,6 +107,11 @@ Brdf oren_nayar() {
     };
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
+    brdf.samplingLobes = [](const glm::dvec3&, std::span<const double>) {
+        SamplingLobes lobes;
+        lobes.add({LobeShape::cosine});
+        return lobes;
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         // The angle of the RMS slope alpha / sqrt(2) of Beckmann's facets.
         const double alpha = surface.roughness * surface.roughness;

@@ -21,6 +21,16 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     return (p.diffuse / pi + p.specular * ((p.shininess + 2.0) / (2.0 * pi) * lobe)) * d.wi.z;
 }
 
+/// As cos^n about the mirrored direction.
+SamplingLobes lobes(const glm::dvec3& wo, std::span<const double> values) {
+    const shading::PhongValues p = shading::phongValues(values);
+    // Of the classic form, in units of pi: k_d, and 2 / (n + 1) for the lobe.
+    const double scale = p.energy ? 1.0 : 2.0 / (p.shininess + 1.0);
+    return shading::baseAndLobe(shading::meanOf(p.diffuse),
+                                {LobeShape::power, scale * shading::meanOf(p.specular), p.shininess, 0.0, 0.0,
+                                 glm::dvec3(-wo.x, -wo.y, wo.z)});
+}
+
 }  // namespace
 
 Brdf phong() {
@@ -40,6 +50,7 @@ Brdf phong() {
     brdf.traits.halfVectorLobe = false;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.samplingLobes = lobes;
     brdf.ambient = phongAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         const PhongValues p = phongValues(values);

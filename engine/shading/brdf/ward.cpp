@@ -43,6 +43,10 @@ Brdf ward() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return rgbAt(values, 3) == glm::dvec3(0.0) ? 0.0 : 2.0 / values[6];
     };
+    brdf.samplingLobes = [](const glm::dvec3&, std::span<const double> values) {
+        return baseAndLobe(meanOf(rgbAt(values, 0)),
+                           {LobeShape::gaussianSlopes, meanOf(rgbAt(values, 3)), values[6], values[6]});
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         WardImitation imitation = wardFromMetallicRoughness(surface);
         ParameterValues values = std::move(imitation.diffuseAndSpecular);

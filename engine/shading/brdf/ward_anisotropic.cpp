@@ -53,6 +53,10 @@ Brdf ward_anisotropic() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return rgbAt(values, 3) == glm::dvec3(0.0) ? 0.0 : 2.0 / std::min(values[6], values[7]);
     };
+    brdf.samplingLobes = [](const glm::dvec3&, std::span<const double> values) {
+        return baseAndLobe(meanOf(rgbAt(values, 0)), {LobeShape::gaussianSlopes, meanOf(rgbAt(values, 3)),
+                                                      values[6], values[7], values[8]});
+    };
     brdf.fromMetallicRoughness = [](const MetallicRoughness& surface) {
         WardImitation imitation = wardFromMetallicRoughness(surface);
         ParameterValues values = std::move(imitation.diffuseAndSpecular);

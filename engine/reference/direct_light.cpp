@@ -1,0 +1,101 @@
+#include "reference/direct_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/body_view.hpp"
+#include "reference/light_integrals.hpp"
+#include "shading/punctual.hpp"
+
+namespace lobe::reference {
+
+const char* nameOf(Source source) {
+    static constexpr const char* kNames[kSources] = {"emission", "ambient",     "directional", "point",
+                                                     "spot",     "rect",        "disk",        "sphere",
+                                                     "tube",     "environment", "fog"};
+    return kNames[static_cast<size_t>(source)];
+}
+
+Source sourceOf(LightType type) {
+    return static_cast<Source>(static_cast<int>(Source::directional) + static_cast<int>(type));
+}
+
+glm::dvec3 reflected(const ShadingPoint& point, const glm::dvec3& direction) {
+    const glm::dmat3 local = glm::transpose(point.frame);
+    const glm::dvec3 wi = local * direction, wo = local * point.toEye;
+    if (!(wi.z > 0.0) || !(wo.z > 0.0)) return glm::dvec3(0.0);
+    return point.brdf->fCos(Directions(wi, wo), point.values);
+}
+
+glm::dvec3 DirectLight::punctual(const ShadingPoint& point, const Visibility& visible,
+                                 const Light& light) const {
+    if (light.type == LightType::directional) {
+        const glm::dvec3 f = reflected(point, -light.direction);
+        return f == glm::dvec3(0.0)
+                   ? f
+                   : f * light.intensity * visible(-light.direction, std::numeric_limits<double>::infinity());
+    }
+    const glm::dvec3 toLight = light.position - point.position;
+    const double distance = glm::length(toLight);
+    if (!(distance > 0.0)) return glm::dvec3(0.0);  // at the very point: no direction
+    const glm::dvec3 direction = toLight / distance;
+    double attenuation = distanceAttenuation(distance * distance, light.range);
+    if (light.type == LightType::spot)
+        attenuation *= spotAttenuation(-glm::dot(direction, light.direction), light.innerConeAngle,
+                                       light.outerConeAngle);
+    if (attenuation == 0.0) return glm::dvec3(0.0);
+    const glm::dvec3 f = reflected(point, direction);
+    if (f == glm::dvec3(0.0)) return f;
+    return f * light.intensity * (attenuation * visible(direction, distance));
+}
+
+/// What an ideal mirror shows: the nearest body that its ray meets, else the environment. Lights without
+/// extent are not to be seen, and light that other surfaces reflect is not direct.
+void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visible,
+                              Contributions& exact) const {
+    if (!point.brdf->mirror) return;
+    const glm::dvec3 normal = point.frame[2];
+    const double cosine = glm::dot(normal, point.toEye);
+    if (!(cosine > 0.0)) return;
+    const glm::dvec3 direction = glm::normalize(2.0 * cosine * normal - point.toEye);
+    const glm::dvec3 reflectance = point.brdf->mirror(cosine, point.values);
+    double nearest = std::numeric_limits<double>::infinity();
+    const Light* body = nullptr;
+    for (const Light& light : scene_.lights) {
+        if (isPunctual(light.type)) continue;
+        const auto distance = BodyView(light, point.position).distanceAlong(direction);
+        if (distance && *distance < nearest) {
+            nearest = *distance;
+            body = &light;
+        }
+    }
+    if (body == nullptr && environment_ == nullptr) return;
+    const double transmittance = visible(direction, nearest);
+    if (body != nullptr)
+        exact[static_cast<size_t>(sourceOf(body->type))] +=
+            reflectance * transmittance * bodyRadiance(*body, point.position);
+    else
+        exact[static_cast<size_t>(Source::environment)] +=
+            reflectance * transmittance * environment_->radiance(direction);
+}
+
+std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& point,
+                                                            const Visibility& visible, Pcg32& random,
+                                                            Contributions& exact,
+                                                            const LightEffort& effort) const {
+    std::vector<std::unique_ptr<LightIntegral>> integrals;
+    const Scatterer scatterer{point, visible, random};
+    addMirrored(point, visible, exact);
+    if (!point.brdf->traits.scattersLight) return integrals;
+    for (const Light& light : scene_.lights) {
+        if (isPunctual(light.type))
+            exact[static_cast<size_t>(sourceOf(light.type))] += punctual(point, visible, light);
+        else if (auto integral = bodyIntegral(scatterer, light, method_, effort))
+            integrals.push_back(std::move(integral));
+    }
+    if (environment_ != nullptr) integrals.push_back(environmentIntegral(scatterer, *environment_, effort));
+    return integrals;
+}
+
+}  // namespace lobe::reference
