@@ -29,14 +29,15 @@ struct Candidate {
     double error = 0.0, milliseconds = 0.0;
 };
 
+/// The scene's own entries if there are any, else all.
 std::vector<const json*> entriesFor(const json& report, const std::string& contentHash) {
-    std::vector<const json*> all;
+    std::vector<const json*> all, own;
     for (const json& scene : report["scenes"]) {
         if (scene["settings"].empty()) continue;
-        if (scene.value("content_hash", "") == contentHash) return {&scene};
         all.push_back(&scene);
+        if (scene.value("content_hash", "") == contentHash) own.push_back(&scene);
     }
-    return all;
+    return own.empty() ? all : own;
 }
 
 const json* settingWith(const json& scene, const json& knobs) {
@@ -74,8 +75,7 @@ std::vector<Candidate> candidatesOf(const json& report, const std::vector<const 
 }
 
 std::string basisOf(const std::vector<const json*>& entries, const std::string& contentHash) {
-    if (entries.size() == 1 && entries[0]->value("content_hash", "") == contentHash)
-        return "measured on this scene";
+    if (entries[0]->value("content_hash", "") == contentHash) return "measured on this scene";
     return "the worst of " + std::to_string(entries.size()) +
            (entries.size() == 1 ? " other scene" : " other scenes") + ", no promise for this one";
 }

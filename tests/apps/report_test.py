@@ -123,7 +123,7 @@ class Report(LobeTest):
     def test_render_calibrates_where_there_is_no_report(self):
         result = self.lobe("render", self.scene, "-r", 256, 256, "-o", "a.png", "--max-error", 0.5)
         self.assertIn("expect relmse", result.stderr)
-        self.assertIn("a small picture", result.stderr)
+        self.assertIn("two small pictures", result.stderr)
         self.assertIn("a.png", self.files())
 
     def test_interrupted_work_leaves_what_is_done(self):
