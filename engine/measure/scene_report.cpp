@@ -22,7 +22,7 @@ double secondsSince(SteadyClock::time_point start) {
 }
 
 /// Shares of a scene's time: the search, then timing; passes and floors take what is left.
-constexpr double kSearchShare = 0.35, kTimingEnd = 0.85;
+constexpr double kSearchShare = 0.5, kTimingEnd = 0.85;
 /// Frames of each pass's times, and runs of its floor.
 constexpr int kPassFrames = 3, kFloorRuns = 3;
 

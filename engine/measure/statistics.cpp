@@ -74,26 +74,4 @@ Order compare(const Interval& ratio) {
     return ratio.high < 1.0 ? Order::less : Order::greater;
 }
 
-Line fitLine(const std::vector<double>& x, const std::vector<double>& y) {
-    const auto n = static_cast<double>(x.size());
-    double meanX = 0.0, meanY = 0.0;
-    for (size_t i = 0; i < x.size(); ++i) {
-        meanX += x[i] / n;
-        meanY += y[i] / n;
-    }
-    double xx = 0.0, xy = 0.0;
-    for (size_t i = 0; i < x.size(); ++i) {
-        xx += (x[i] - meanX) * (x[i] - meanX);
-        xy += (x[i] - meanX) * (y[i] - meanY);
-    }
-    Line line;
-    line.slope = xx > 0.0 ? xy / xx : 0.0;
-    line.intercept = meanY - line.slope * meanX;
-    double squares = 0.0;
-    for (size_t i = 0; i < x.size(); ++i)
-        squares += std::pow(y[i] - line.intercept - line.slope * x[i], 2);
-    line.residual = n > 2 ? std::sqrt(squares / (n - 2)) : 0.0;
-    return line;
-}
-
 }  // namespace lobe::measure

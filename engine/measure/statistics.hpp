@@ -37,11 +37,4 @@ Order compare(const Interval& ratio);
 /// P(Binomial(n, p) <= k).
 double binomialCumulative(int n, double p, int k);
 
-/// A straight line through points, by least squares.
-struct Line {
-    double intercept = 0.0, slope = 0.0;
-    double residual = 0.0;  ///< standard deviation about the line, with n - 2 degrees of freedom
-};
-Line fitLine(const std::vector<double>& x, const std::vector<double>& y);
-
 }  // namespace lobe::measure

@@ -33,6 +33,9 @@ FrameCost oneValue(size_t thing, const Repeats& repeats, const std::function<Fra
     return {median(clock), median(wall), median(cpu)};
 }
 
+/// With fewer no interval of a median has a confidence of 0.95.
+constexpr size_t kFewRounds = 6;
+
 std::string percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
@@ -124,6 +127,9 @@ Noise judgeNoise(const std::vector<Samples>& all) {
     noise.detail = "times are known to about " + percent(noise.typicalWidth) +
                    " (half the interval of a median); " + std::to_string(ties) + " of " +
                    std::to_string(pairs) + " pairs of settings can't be told apart";
+    if (const size_t rounds = all[0].clock.size(); rounds < kFewRounds)
+        noise.detail +=
+            "; only " + std::to_string(rounds) + " of the rounds fit into the time, so intervals say less";
     if (noise.noisy) noise.detail += "; the machine was too noisy to compare settings of like cost";
     return noise;
 }

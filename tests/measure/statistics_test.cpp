@@ -101,12 +101,5 @@ TEST(Statistics, EqualsAreSeldomToldApart) {
     EXPECT_LE(wrong, kTrials - fewest(kTrials, 1.0 - worst));
 }
 
-TEST(Statistics, LinesAreFound) {
-    const Line line = fitLine({1, 2, 3, 4}, {3, 5, 7, 9});
-    EXPECT_NEAR(line.slope, 2.0, 1e-12);
-    EXPECT_NEAR(line.intercept, 1.0, 1e-12);
-    EXPECT_NEAR(line.residual, 0.0, 1e-12);
-}
-
 }  // namespace
 }  // namespace lobe::measure
