@@ -9,7 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "floor.hpp"
+#include "measure/floor.hpp"
 #include "models.hpp"
 #include "passes/renderer.hpp"
 #include "plan/summary.hpp"
@@ -64,7 +64,7 @@ Result measure(gl::Context& context, Scene scene, int width, int height, int fra
     result.frame = median(total);
     for (const std::string& pass : order)
         result.passes.emplace_back(pass, least(times[pass]));
-    result.floors = floorTimes(renderer.plan(), context.info(), width, height, frames + 1);
+    result.floors = measure::floorTimes(renderer.plan(), context.info(), width, height, frames + 1);
     return result;
 }
 

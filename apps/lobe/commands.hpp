@@ -14,6 +14,8 @@ int explainCommand(const std::vector<std::string>& arguments);
 int planCommand(const std::vector<std::string>& arguments);
 /// `lobe plot KIND`: docs/plots.md.
 int plotCommand(const std::vector<std::string>& arguments);
+/// `lobe report`: docs/report.md.
+int reportCommand(const std::vector<std::string>& arguments);
 /// `lobe compare A B`: docs/compare.md.
 int compareCommand(const std::vector<std::string>& arguments);
 int infoCommand(const std::vector<std::string>& arguments);

@@ -16,6 +16,7 @@ constexpr const char* kUsage =
     "  render SCENE... -o out/{model}.png   render glTF scenes\n"
     "  reference SCENE -o truth.exr         the true picture, with the error that it still has\n"
     "  plan SCENE                           what a frame runs and leaves out, and why\n"
+    "  report SCENE... -o report/           error against run time of quality settings\n"
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
     "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
     "  explain SCENE --pixel X,Y            surface, lights and terms behind one pixel, and a test of it\n"
@@ -31,7 +32,8 @@ int run(const std::vector<std::string>& arguments) {
         {"compare", lobe::app::compareCommand}, {"explain", lobe::app::explainCommand},
         {"plan", lobe::app::planCommand},
         {"models", lobe::app::modelsCommand},   {"plot", lobe::app::plotCommand},
-        {"info", lobe::app::infoCommand},       {"help", lobe::app::helpCommand}};
+        {"info", lobe::app::infoCommand},       {"report", lobe::app::reportCommand},
+        {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");

@@ -1,13 +1,13 @@
 // lobe reference: the true picture of a scene, with the error that it still has.
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
 #include "base/error.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "meter.hpp"
 #include "output_name.hpp"
 #include "record.hpp"
@@ -16,13 +16,6 @@
 
 namespace lobe::app {
 namespace {
-
-std::atomic<bool> stopped = false;
-constexpr int kInterruptedExit = 130;
-
-void stop(int) {
-    if (stopped.exchange(true)) std::_Exit(kInterruptedExit);
-}
 
 struct ReferenceArguments {
     std::vector<std::string> inputs;
@@ -106,8 +99,7 @@ int referenceCommand(const std::vector<std::string>& list) {
     TruthStore store = r.cache ? TruthStore() : TruthStore(std::filesystem::path());
     const std::string key = truthKey(*scene, camera, request);
     const Image earlier = store.find(key, imageFiles);
-    std::signal(SIGINT, stop);
-    std::signal(SIGTERM, stop);
+    const std::atomic<bool>& stopped = catchInterrupts();
     Meter meter(!r.quiet);
     const auto start = std::chrono::steady_clock::now();
     const reference::TruthResult truth = reference::computeTruth(

@@ -1,7 +1,5 @@
 // lobe render: scenes in, pictures out.
 #include <atomic>
-#include <csignal>
-#include <cstdlib>
 #include <iostream>
 
 #include "arguments.hpp"
@@ -9,26 +7,21 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "image/image_files.hpp"
+#include "interrupt.hpp"
 #include "output_name.hpp"
 #include "pipeline.hpp"
+#include "quality_goal.hpp"
 #include "record.hpp"
 #include "shot_scene.hpp"
 
 namespace lobe::app {
 namespace {
 
-std::atomic<bool> interrupted = false;
-constexpr int kInterruptedExit = 130;
-
-void interrupt(int) {
-    // A second one ends the program at once.
-    if (interrupted.exchange(true)) std::_Exit(kInterruptedExit);
-}
-
 struct RenderArguments {
     std::vector<std::string> inputs;
     std::string batch, shardText, filter, reproduce;
     double timeLimit = 600.0;
+    QualityGoal goal;
     bool headless = false, resume = false, json = false, list = false, quiet = false, verbose = false;
 };
 
@@ -47,6 +40,7 @@ void addOptions(CLI::App& app, RenderArguments& r) {
                    "with --brdf-file: how long drawing one picture may take before an endless loop is "
                    "assumed [600], s")
         ->type_name("S");
+    r.goal.addOptions(app);
     const auto addFlag = [&](const std::string& names, bool& value, const std::string& help) {
         const std::string name = names.substr(names.rfind("--") + 2);
         app.add_flag(names + ",!--no-" + name, value, help);
@@ -129,9 +123,13 @@ int renderCommand(const std::vector<std::string>& list) {
     if (!arguments.parse(list)) return 0;
 
     if (!(r.timeLimit > 0.0)) throw UsageError("--time-limit: expected more than 0 seconds");
+    if (!r.goal.report.empty() && !r.goal.isSet())
+        throw UsageError("--report without --max-error or --budget; expected one of them");
+    const SettingSources sources = arguments.sources();
+    if (r.goal.isSet()) requireNoKnobs(sources, "--max-error and --budget choose it");
     nlohmann::json record;  // of the picture to reproduce
     if (!r.reproduce.empty()) record = recordIn(ImageFiles().readMetadata(r.reproduce), r.reproduce);
-    std::vector<Shot> shots = shotsIn(r, record, arguments.sources());
+    std::vector<Shot> shots = shotsIn(r, record, sources);
     forEachSettings(shots, [](const Shot& shot) { requireOneCamera(*shot.settings); });
     nameOutputs(shots);
     if (!r.filter.empty()) {
@@ -141,6 +139,8 @@ int renderCommand(const std::vector<std::string>& list) {
         if (shots.empty()) throw UsageError("no shot matches --filter '" + r.filter + "'");
     }
     if (!r.shardText.empty()) shots = shard(shots, r.shardText);
+    const std::atomic<bool>& interrupted = catchInterrupts();
+    if (r.goal.isSet() && !shots.empty()) applyGoal(shots, r.goal, contextOf(shots), r.quiet, interrupted);
     if (r.list) {
         printList(shots, r.json);
         return 0;
@@ -165,9 +165,6 @@ int renderCommand(const std::vector<std::string>& list) {
                       r.quiet     ? Verbosity::quiet
                       : r.verbose ? Verbosity::verbose
                                   : Verbosity::normal);
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    std::signal(SIGPIPE, SIG_IGN);
     runShots(shots, options, reporter, interrupted);
     const ExitCode code = reporter.finish(interrupted);
     return interrupted ? kInterruptedExit : static_cast<int>(code);

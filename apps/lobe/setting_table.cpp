@@ -5,6 +5,7 @@
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
 #include "gl/context.hpp"
+#include "plan/knobs.hpp"
 #include "settings.hpp"
 #include "shading/brdf.hpp"
 
@@ -74,9 +75,25 @@ std::string Setting::defaultText() const {
     return text;
 }
 
-const std::vector<Setting>& settingTable() {
+namespace {
+
+/// A quality knob as a setting.
+Setting settingOf(const Knob& knob) {
+    Setting setting{knob.name, knob.range ? SettingType::integer : SettingType::choice,
+                    nullptr,   knob.help,
+                    "Quality", {}};
+    if (knob.range) {
+        setting.minimum = knob.range->first;
+        setting.maximum = knob.range->second;
+    } else {
+        setting.choices = knob.values;
+    }
+    return setting;
+}
+
+std::vector<Setting> makeTable() {
     using enum SettingType;
-    static const std::vector<Setting> table = {
+    std::vector<Setting> table = {
         {"output", text, nullptr,
          "file to write; {model} {camera} {n:3} {frame:4} {date} {brdf} {quality} and ### are filled in; - "
          "is standard output (PNG). "
@@ -177,33 +194,6 @@ const std::vector<Setting>& settingTable() {
 
         {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",
          "Quality", qualityPresetNames()},
-        {"anti_aliasing", choice, nullptr, "samples a pixel", "Quality", {"none", "ssaa4", "ssaa16"}},
-        {"gbuffer_bits",
-         choice,
-         nullptr,
-         "bits of each parameter that varies from pixel to pixel",
-         "Quality",
-         {"8", "16", "32"}},
-        {"texture_bits",
-         choice,
-         nullptr,
-         "bits of each texel component that is filtered",
-         "Quality",
-         {"8", "16", "32"}},
-        {"shading",
-         choice,
-         nullptr,
-         "deferred, or all surfaces in the forward pass",
-         "Quality",
-         {"deferred", "forward"}},
-        {"cluster_from",
-         integer,
-         nullptr,
-         "light lists by cluster from this many ranged lights of a type on; 0 never",
-         "Quality",
-         {},
-         0,
-         1e6},
 
         {"exposure",
          real,
@@ -222,6 +212,17 @@ const std::vector<Setting>& settingTable() {
         {"backend", choice, "auto", "how the OpenGL context is made", "Device", gl::backendNames()},
         {"device", integer, -1, "EGL device, as lobe info numbers them; -1 any", "Device", {}, -1, 255},
     };
+    auto place =
+        std::find_if(table.begin(), table.end(), [](const Setting& s) { return s.key == "quality"; });
+    for (const Knob& knob : knobTable())
+        place = table.insert(place + 1, settingOf(knob));
+    return table;
+}
+
+}  // namespace
+
+const std::vector<Setting>& settingTable() {
+    static const std::vector<Setting> table = makeTable();
     return table;
 }
 

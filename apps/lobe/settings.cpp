@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "image/tone.hpp"
 #include "model_files.hpp"
+#include "plan/knobs.hpp"
 
 namespace lobe::app {
 
@@ -21,8 +22,6 @@ json builtIn(const Setting& setting) {
 std::string printed(const json& value) {
     return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
-
-constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {"ssaa16", 16}};
 
 }  // namespace
 
@@ -107,30 +106,18 @@ std::string Settings::chain() const {
 
 Quality qualityOf(const Settings& settings) {
     Quality quality = qualityPreset(settings.get("quality").get<std::string>());
-    const auto text = [&](const char* key) {
-        const json& value = settings.get(key);
-        return value.is_null() ? std::string() : value.get<std::string>();
-    };
-    for (const auto& [name, samples] : kSamples)
-        if (text("anti_aliasing") == name) quality.samples = samples;
-    if (const std::string value = text("gbuffer_bits"); !value.empty())
-        quality.gbufferBits = std::stoi(value);
-    if (const std::string value = text("texture_bits"); !value.empty())
-        quality.textureBits = std::stoi(value);
-    if (const std::string value = text("shading"); !value.empty())
-        quality.shading = value == "forward" ? Shading::forward : Shading::deferred;
-    if (const json& value = settings.get("cluster_from"); !value.is_null())
-        quality.clusterFrom = value.get<int>();
+    for (const Knob& knob : knobTable())
+        if (const json& value = settings.get(knob.name); !value.is_null())
+            knob.set(quality, value.is_string() ? value.get<std::string>() : value.dump());
     return quality;
 }
 
 json knobsOf(const Quality& quality) {
-    json knobs = {{"gbuffer_bits", std::to_string(quality.gbufferBits)},
-                  {"texture_bits", std::to_string(quality.textureBits)},
-                  {"shading", quality.shading == Shading::forward ? "forward" : "deferred"},
-                  {"cluster_from", quality.clusterFrom}};
-    for (const auto& [name, samples] : kSamples)
-        if (quality.samples == samples) knobs["anti_aliasing"] = name;
+    json knobs = json::object();
+    for (const Knob& knob : knobTable()) {
+        const std::string value = knob.get(quality);
+        knobs[knob.name] = knob.range ? json(std::stoi(value)) : json(value);
+    }
     return knobs;
 }
 

@@ -7,10 +7,10 @@
 #include "gl/context.hpp"
 #include "plan/plan.hpp"
 
-namespace lobe::bench {
+namespace lobe::measure {
 
 /// Milliseconds of each pass's floor, the least of `runs` runs.
 std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::ContextInfo& info, int width,
                                          int height, int runs);
 
-}  // namespace lobe::bench
+}  // namespace lobe::measure

@@ -1,4 +1,4 @@
-#include "floor.hpp"
+#include "measure/floor.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "gl/timer.hpp"
 #include "passes/targets.hpp"
 
-namespace lobe::bench {
+namespace lobe::measure {
 namespace {
 
 bool isInteger(const Channel& channel) {
@@ -90,4 +90,4 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
     return result;
 }
 
-}  // namespace lobe::bench
+}  // namespace lobe::measure

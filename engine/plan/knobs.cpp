@@ -1,0 +1,139 @@
+#include "plan/knobs.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/closest_name.hpp"
+#include "base/error.hpp"
+
+namespace lobe {
+namespace {
+
+constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {"ssaa16", 16}};
+
+std::string samplesName(const Quality& quality) {
+    for (const auto& [name, samples] : kSamples)
+        if (samples == quality.samples) return name;
+    return std::to_string(quality.samples);
+}
+
+void setSamples(Quality& quality, const std::string& value) {
+    for (const auto& [name, samples] : kSamples)
+        if (value == name) quality.samples = samples;
+}
+
+std::string always(const SceneSummary&, const Quality&) {
+    return {};
+}
+
+/// Why there is no G-buffer, which only opaque surfaces and deferred shading have.
+std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
+    if (!scene.opaque && !scene.masked) return "no opaque surface in the scene";
+    if (quality.shading == Shading::forward) return "forward shading has no G-buffer";
+    return {};
+}
+
+std::string withoutTextures(const SceneSummary& scene, const Quality&) {
+    return scene.textures.empty() ? "no texture in the scene" : "";
+}
+
+std::string withoutDeferred(const SceneSummary& scene, const Quality&) {
+    return scene.opaque || scene.masked ? "" : "no opaque surface in the scene";
+}
+
+std::string withoutRanges(const SceneSummary& scene, const Quality&) {
+    return scene.rangedPointLights + scene.rangedSpotLights > 0 ? "" : "no light with a range in the scene";
+}
+
+bool isAllowed(const Knob& knob, const std::string& value) {
+    if (!knob.range) return std::find(knob.values.begin(), knob.values.end(), value) != knob.values.end();
+    int number = 0;
+    const char* end = value.data() + value.size();
+    const auto [stop, error] = std::from_chars(value.data(), end, number);
+    return error == std::errc() && stop == end && number >= knob.range->first && number <= knob.range->second;
+}
+
+}  // namespace
+
+const std::vector<Knob>& knobTable() {
+    static const std::vector<Knob> table = {
+        {.name = "anti_aliasing",
+         .title = "Anti-aliasing",
+         .help = "samples a pixel",
+         .values = {"none", "ssaa4", "ssaa16"},
+         .range = {},
+         .get = samplesName,
+         .set = setSamples,
+         .withoutEffect = always},
+        {.name = "gbuffer_bits",
+         .title = "G-buffer bits",
+         .help = "bits of each parameter that varies from pixel to pixel",
+         .values = {"8", "16", "32"},
+         .range = {},
+         .get = [](const Quality& q) { return std::to_string(q.gbufferBits); },
+         .set = [](Quality& q, const std::string& value) { q.gbufferBits = std::stoi(value); },
+         .withoutEffect = withoutGbuffer},
+        {.name = "texture_bits",
+         .title = "Texture bits",
+         .help = "bits of each texel component that is filtered",
+         .values = {"8", "16", "32"},
+         .range = {},
+         .get = [](const Quality& q) { return std::to_string(q.textureBits); },
+         .set = [](Quality& q, const std::string& value) { q.textureBits = std::stoi(value); },
+         .withoutEffect = withoutTextures},
+        {.name = "shading",
+         .title = "Shading",
+         .help = "deferred, or all surfaces in the forward pass",
+         .values = {"deferred", "forward"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return q.shading == Shading::forward ? "forward" : "deferred";
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.shading = value == "forward" ? Shading::forward : Shading::deferred;
+             },
+         .withoutEffect = withoutDeferred},
+        {.name = "cluster_from",
+         .title = "Clusters from",
+         .help = "light lists by cluster from this many ranged lights of a type on; 0 never",
+         .values = {"0", "9", "1"},
+         .range = {{0, 1000000}},
+         .get = [](const Quality& q) { return std::to_string(q.clusterFrom); },
+         .set = [](Quality& q, const std::string& value) { q.clusterFrom = std::stoi(value); },
+         .withoutEffect = withoutRanges},
+    };
+    return table;
+}
+
+std::vector<std::string> knobNames() {
+    std::vector<std::string> names;
+    for (const Knob& knob : knobTable())
+        names.push_back(knob.name);
+    return names;
+}
+
+const Knob& requireKnob(const std::string& name) {
+    for (const Knob& knob : knobTable())
+        if (knob.name == name) return knob;
+    throw UsageError("unknown knob '" + name + "'" + didYouMean(name, knobNames()));
+}
+
+void setKnob(Quality& quality, const std::string& name, const std::string& value) {
+    const Knob& knob = requireKnob(name);
+    if (!isAllowed(knob, value))
+        throw UsageError(name + " '" + value + "'; expected " +
+                         (knob.range ? "a whole number from " + std::to_string(knob.range->first) + " to " +
+                                           std::to_string(knob.range->second)
+                                     : "one of " + listed(knob.values) + didYouMean(value, knob.values)));
+    knob.set(quality, value);
+}
+
+std::vector<std::pair<std::string, std::string>> knobValues(const Quality& quality) {
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const Knob& knob : knobTable())
+        values.emplace_back(knob.name, knob.get(quality));
+    return values;
+}
+
+}  // namespace lobe
