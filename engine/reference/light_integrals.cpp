@@ -129,20 +129,25 @@ private:
         for (const Sums& sums : sums_)
             total += sums;
         Parts parts;
+        double weight = 0.0;
         for (size_t part = 0; part < kParts; ++part) {
             const Sums& own = sums_[part];
             const double m = n * (kParts - 1);
             const double lit = total.lit1 - own.lit1, seen = total.seen1 - own.seen1;
             const double variance = (total.litLit - own.litLit) - lit * lit / m;
             const double covariance = (total.litSeen - own.litSeen) - lit * seen / m;
-            // Draws that hardly differ say nothing but what share of them is visible.
-            const double beta = variance > 1e-12 * (total.litLit - own.litLit) ? covariance / variance
-                                : lit > 0.0                                    ? seen / lit
-                                                                               : 1.0;
+            // Draws that hardly differ say nothing but what share of them is visible. Any weight is unbiased;
+            // one beyond what visibility can be only adds noise.
+            const double beta = variance > 1e-12 * (total.litLit - own.litLit)
+                                    ? std::clamp(covariance / variance, 0.0, 1.0)
+                                : lit > 0.0 ? seen / lit
+                                            : 1.0;
             parts[part] = own.seen / n + beta * (unshadowed_ - own.lit / n);
+            weight += beta / kParts;
         }
         Estimate estimate = estimateOf(parts);
-        estimate.variance += glm::dvec3(quadratureError_ * quadratureError_);
+        const double quadrature = weight * quadratureError_;
+        estimate.variance += glm::dvec3(quadrature * quadrature);
         return estimate;
     }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -45,8 +44,7 @@ public:
           stop_(stop),
           sources_(sourcesOf(*scene)),
           integrator_(scene, camera, request.width, request.height, request.options),
-          image_(request.width, request.height, truthChannels(*scene)),
-          reached_(image_.pixelCount(), std::numeric_limits<double>::infinity()) {
+          image_(request.width, request.height, truthChannels(*scene)) {
         if (earlier != nullptr && earlier->channels == image_.channels && earlier->width == image_.width &&
             earlier->height == image_.height) {
             image_.values = earlier->values;
@@ -159,7 +157,10 @@ private:
     void pixel(int x, int y, const Effort& effort, uint64_t number) {
         const size_t index =
             static_cast<size_t>(y) * static_cast<size_t>(image_.width) + static_cast<size_t>(x);
-        if (known_ && goodEnough(index, effort.relativeError) && reached_[index] <= effort.relativeError)
+        // An error that few rays found may be too good to be true: what was asked for counts too.
+        const size_t asked = image_.channelCount() - 1;
+        if (known_ && goodEnough(index, effort.relativeError) && value(index, asked) > 0.0F &&
+            value(index, asked) <= stored(effort.relativeError))
             return;
         const PixelTruth truth = integrator_.at(x, y, effort, number);
         const glm::dvec3 total = truth.total();
@@ -178,11 +179,11 @@ private:
         for (size_t c = 0; c < 3; ++c)
             value(index, surface + 1 + c) = stored(truth.normal[static_cast<int>(c)]);
         value(index, surface + 4) = static_cast<float>(truth.material);
-        reached_[index] = effort.relativeError;
+        value(index, surface + 5) = stored(effort.relativeError);
     }
 
     TruthResult result() {
-        takeFloor();
+        if (floor_ == glm::dvec3(0.0)) takeFloor();
         TruthResult result;
         double sum = 0.0;
         for (size_t i = 0; i < image_.pixelCount(); ++i) {
@@ -204,7 +205,6 @@ private:
     std::vector<Source> sources_;
     PixelIntegrator integrator_;
     Image image_;
-    std::vector<double> reached_;  ///< the effort that each pixel has had in this run
     glm::dvec3 floor_{0.0};
     std::optional<Clock::time_point> deadline_;
     bool known_ = false;
@@ -218,7 +218,7 @@ std::vector<std::string> truthChannels(const Scene& scene) {
     for (const Source source : sourcesOf(scene))
         for (const char* c : {".R", ".G", ".B"})
             channels.push_back(nameOf(source) + std::string(c));
-    for (const char* name : {"depth.Z", "normal.X", "normal.Y", "normal.Z", "material.id"})
+    for (const char* name : {"depth.Z", "normal.X", "normal.Y", "normal.Z", "material.id", "effort.Y"})
         channels.emplace_back(name);
     return channels;
 }

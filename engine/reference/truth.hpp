@@ -26,7 +26,8 @@ struct TruthProgress {
 
 struct TruthResult {
     /// R G B A; error.R G B: standard errors; emission.R ... fog.R G B: radiance by source, of those that the
-    /// scene has; depth.Z, normal.X Y Z, material.id of the nearest surface at the pixel's centre.
+    /// scene has; depth.Z, normal.X Y Z, material.id of the nearest surface at the pixel's centre; effort.Y:
+    /// the relative error that the pixel was computed for.
     Image image;
     /// Root mean square over pixels of standard error / (radiance + half the mean radiance).
     double relativeError = 0.0;
