@@ -33,6 +33,17 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
     return {};
 }
 
+/// Why no stored normal is read: those of punctual lights are the only ones that show.
+std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
+    if (const std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
+    if (scene.directionalLights + scene.pointLights + scene.spotLights == 0)
+        return "no light reads the normal";
+    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(), [](const BrdfFacts& facts) {
+        return facts.name != kUnlit && requireBrdf(facts.name).traits.scattersLight;
+    });
+    return shows ? "" : "no opaque surface shows punctual light";
+}
+
 std::string withoutTextures(const SceneSummary& scene, const Quality&) {
     return scene.textures.empty() ? "no texture in the scene" : "";
 }
@@ -73,6 +84,18 @@ const std::vector<Knob>& knobTable() {
          .get = [](const Quality& q) { return std::to_string(q.gbufferBits); },
          .set = [](Quality& q, const std::string& value) { q.gbufferBits = std::stoi(value); },
          .withoutEffect = withoutGbuffer},
+        {.name = "normal_bits",
+         .title = "Normal bits",
+         .help =
+             "bits of each of a normal's two coordinates in the G-buffer; auto: what the sharpest lobe needs",
+         .values = {"8", "16", "auto", "32"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return q.normalBits == 0 ? "auto" : std::to_string(q.normalBits);
+         },
+         .set = [](Quality& q,
+                   const std::string& value) { q.normalBits = value == "auto" ? 0 : std::stoi(value); },
+         .withoutEffect = withoutNormal},
         {.name = "texture_bits",
          .title = "Texture bits",
          .help = "bits of each texel component that is filtered",

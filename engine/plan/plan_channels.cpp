@@ -80,12 +80,19 @@ void Planner::planNormal() {
                  !anyLight_ ? "no light reads it" : "no opaque surface shows punctual light");
         return;
     }
-    const bool wide = plan_.quality.gbufferBits == 32 || sharpness > kSharpnessOf16Bits;
-    wideNormal_ = wide;
-    addTarget("normal", wide ? "RG32F" : "RG16", "octahedral shading normal",
-              plan_.quality.gbufferBits == 32 ? "quality asks for full precision"
-              : wide                          ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
-                                              : "16 bits change no lobe here by more than 1 %");
+    const int asked = plan_.quality.normalBits;
+    const bool full = plan_.quality.gbufferBits == 32;
+    const bool sharp = sharpness > kSharpnessOf16Bits;
+    normalBits_ = asked != 0 ? asked : full || sharp ? 32 : 16;
+    addTarget("normal", unormFormat(2, normalBits_), "octahedral shading normal",
+              asked != 0 ? "normal_bits asks for " + std::to_string(asked) + " bits: off by at most " +
+                               (asked == 8    ? "1.7e-2"
+                                : asked == 16 ? "6.4e-5"
+                                              : "3.2e-7") +
+                               " rad"
+              : full  ? "quality asks for full precision"
+              : sharp ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
+                      : "16 bits change no lobe here by more than 1 %");
 }
 
 void Planner::planTangent() {

@@ -16,9 +16,12 @@ struct Quality {
     /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none,
     /// ssaa4, ssaa16).
     int samples = 4;
-    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals: 32 here means
-    /// 2x32F.
+    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals follow where
+    /// normalBits does not say otherwise: 32 here means 2x32F.
     int gbufferBits = 16;
+    /// Bits of each of the two octahedral coordinates of a normal in the G-buffer: 8, 16 (unorm) or 32
+    /// (float); 0: what the sharpest lobe needs, 16 or 32.
+    int normalBits = 0;
     /// Bits a texel component of textures that are filtered: 8, 16 or 32 (float).
     int textureBits = 8;
     Shading shading = Shading::deferred;
