@@ -186,9 +186,11 @@ void Planner::planAccumulation() {
     if (plan_.samples == 1) return leaveOut("pass", "accumulate", "one sample a pixel");
     addChannel("accumulated", "RGBA32F", "sum of jittered frames",
                "anti-aliasing by " + std::to_string(plan_.samples) + " samples");
+    Defines defines;
+    if (plan_.quality.radianceBits == 16) defines["RADIANCE_16F"] = "1";
     plan_.passes.push_back({"accumulate",
                             "pass/accumulate.frag",
-                            {{}},
+                            {{"", -1, defines}},
                             {"radiance"},
                             {"accumulated"},
                             plural(plan_.samples, "jittered frame") + " averaged"});

@@ -12,6 +12,11 @@ enum class Shading : uint8_t {
     forward  ///< every surface in the forward pass: the check on the deferred path
 };
 
+enum class FresnelEquations : uint8_t {
+    exact,   ///< as each material says
+    schlick  ///< Schlick's approximation in place of the exact equations (withSchlick())
+};
+
 struct Quality {
     /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none,
     /// ssaa4, ssaa16).
@@ -27,6 +32,11 @@ struct Quality {
     Shading shading = Shading::deferred;
     /// Light lists per cluster of pixels: from this many lights of a type on; 0: never.
     int clusterFrom = 9;
+
+    /// Bits of each component of the target that lights add to: 16 or 32 (float). The mean of the samples has
+    /// 32 either way. A sample's radiance from 65504 on is infinite with 16.
+    int radianceBits = 32;
+    FresnelEquations fresnel = FresnelEquations::exact;
 
     bool operator==(const Quality&) const = default;
 };

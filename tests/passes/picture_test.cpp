@@ -122,37 +122,6 @@ TEST(Picture, DeferredAndForwardAgreeToRounding) {
     EXPECT_GT(compared, 1000);
 }
 
-/// What `normal_bits` asks for is what is stored; auto is 16 bits, or 32 with a G-buffer of 32.
-TEST(Picture, NormalBitsAreWhatIsStored) {
-    const Scene scene = modelsAndLights();
-    const auto normals = [&](int gbufferBits, int normalBits) {
-        return render(scene, frontCamera(5.0),
-                      smallPicture({.samples = 1, .gbufferBits = gbufferBits, .normalBits = normalBits},
-                                   {Aov::radiance, Aov::normal, Aov::materialId}));
-    };
-    const Image exact = normals(32, 32);
-    EXPECT_EQ(normals(16, 0).values, normals(16, 16).values);
-    EXPECT_EQ(normals(32, 0).values, exact.values);
-    const size_t nx = channelIndex(exact, "normal.X");
-    const size_t id = channelIndex(exact, "material.id");
-    // Angles of tests/shading/octahedral_test.cpp, beside that of the 32-bit normals.
-    for (const auto& [bits, most] : {std::pair(8, 1.7e-2), std::pair(16, 6.45e-5)}) {
-        const Image image = normals(32, bits);
-        double largest = 0.0;
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) {
-                if (image.pixel(x, y)[id] == 0.0f) continue;
-                const float* a = image.pixel(x, y) + nx;
-                const float* b = exact.pixel(x, y) + nx;
-                const glm::dvec3 u(a[0], a[1], a[2]);
-                const glm::dvec3 v(b[0], b[1], b[2]);
-                largest = std::max(largest, std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
-            }
-        EXPECT_LE(largest, most + 3.2e-7) << bits;
-        EXPECT_GT(largest, 0.5 * most) << bits << " bits are not stored as such";
-    }
-}
-
 /// Brushed spheres: an anisotropic lobe about a tangent of its own, left-handed on one of them.
 TEST(Picture, AnisotropicLobesFollowTheTangent) {
     Scene scene;

@@ -132,6 +132,16 @@ TEST(Plan, NormalBitsWinOverTheSharpestLobe) {
     EXPECT_FALSE(anyDefine(planOf(scene, {.normalBits = 8}), "NORMAL_32F"));
 }
 
+TEST(Plan, RadianceBitsAreTheFormatThatLightsAddTo) {
+    EXPECT_EQ(planOf(litQuad()).channel("radiance")->format, "RGBA32F");
+    const FramePlan plan = planOf(litQuad(), {.radianceBits = 16}, {Aov::radiance, Aov::contributions});
+    EXPECT_EQ(plan.channel("radiance")->format, "RGBA16F");
+    EXPECT_EQ(plan.channel("radiance")->bytesPerPixel, 8);
+    EXPECT_EQ(plan.channel("contribution.directional")->format, "RGBA16F");
+    EXPECT_EQ(plan.channel("accumulated")->format, "RGBA32F");
+    EXPECT_THAT(plan.channel("radiance")->reason, testing::HasSubstr("65504"));
+}
+
 TEST(Plan, WithoutClipControlLinearDepthIsAChannel) {
     Capabilities capabilities = modern();
     capabilities.clipControl = false;
