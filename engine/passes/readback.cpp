@@ -22,8 +22,8 @@ std::vector<float> readTarget(const Targets& targets, const std::string& channel
     return values;
 }
 
-/// Some drivers keep the largest half float in place of what is beyond it; accumulate.frag does the same to
-/// each of several samples.
+/// Some drivers keep the largest half float in place of what is beyond it: infinite here, as accumulate.frag
+/// makes it in each of several samples.
 void markOverflow(const FramePlan& plan, float* values, size_t count) {
     constexpr float kLargestHalf = 65504.0f;
     if (plan.quality.radianceBits == 16 && plan.samples == 1)

@@ -36,7 +36,7 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
 
 /// Why no stored normal is read: those of punctual lights are the only ones that show.
 std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
-    if (const std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
+    if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
     if (scene.directionalLights + scene.pointLights + scene.spotLights == 0)
         return "no light reads the normal";
     const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(),
