@@ -48,9 +48,11 @@ int planCommand(const std::vector<std::string>& list) {
     if (verbose) std::cerr << settings.chain();
 
     SceneLoader loader;
-    const auto scene = preparedScene(
-        std::make_shared<const Scene>(loader.load(files[0], loadOptionsOf(settings))), settings);
+    auto scene = preparedScene(std::make_shared<const Scene>(loader.load(files[0], loadOptionsOf(settings))),
+                               settings);
     const RenderOptions options = renderOptionsOf(settings);
+    if (options.quality.fresnel == FresnelEquations::schlick)
+        scene = std::make_shared<const Scene>(withSchlick(*scene));
     const FramePlan plan =
         planFrame(summarise(*scene), options.quality, capabilitiesFor(settings), options.aovs);
     for (const std::string& warning : scene->warnings)

@@ -1,6 +1,7 @@
 #include "passes/readback.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace lobe {
 namespace {
@@ -18,6 +19,23 @@ std::vector<float> readTarget(const Targets& targets, const std::string& channel
     const size_t count = static_cast<size_t>(targets.width()) * static_cast<size_t>(targets.height());
     std::vector<float> values(count * static_cast<size_t>(components));
     readTarget(targets, channel, components, values.data());
+    return values;
+}
+
+/// Some drivers keep the largest half float in place of what is beyond it: infinite here, as accumulate.frag
+/// makes it in each of several samples.
+void markOverflow(const FramePlan& plan, float* values, size_t count) {
+    constexpr float kLargestHalf = 65504.0f;
+    if (plan.quality.radianceBits == 16 && plan.samples == 1)
+        std::replace_if(
+            values, values + count, [](float value) { return value >= kLargestHalf; },
+            std::numeric_limits<float>::infinity());
+}
+
+/// Rows of a target of radiance.
+std::vector<float> readRadiance(const FramePlan& plan, const Targets& targets, const std::string& channel) {
+    std::vector<float> values = readTarget(targets, channel, 4);
+    markOverflow(plan, values.data(), values.size());
     return values;
 }
 
@@ -66,11 +84,11 @@ std::vector<Layer> layersOf(const FramePlan& plan, const AovSet& aovs) {
 /// With contributions, radiance is their sum, in the order in which the passes would have added them.
 std::vector<float> summedContributions(const FramePlan& plan, const Targets& targets) {
     const std::string prefix = plan.samples > 1 ? "accumulated." : "";
-    std::vector<float> sum = readTarget(targets, prefix + "radiance", 4);
+    std::vector<float> sum = readRadiance(plan, targets, prefix + "radiance");
     for (size_t i = 0; i < sum.size(); ++i)
         if (i % 4 != 3) sum[i] = 0.0f;
     for (const std::string& name : plan.contributionTargets) {
-        const std::vector<float> part = readTarget(targets, prefix + "contribution." + name, 4);
+        const std::vector<float> part = readRadiance(plan, targets, prefix + "contribution." + name);
         for (size_t i = 0; i < sum.size(); ++i)
             if (i % 4 != 3) sum[i] += part[i];
     }
@@ -89,6 +107,7 @@ Image readPicture(const FramePlan& plan, const Targets& targets, const View& vie
         targets.has(layers[0].target)) {
         // Radiance alone, as most pictures are: no copy on the way.
         readTarget(targets, layers[0].target, layers[0].components, image.values.data());
+        if (layers[0].channels[0] == "R") markOverflow(plan, image.values.data(), image.values.size());
         turnOver(image);
         return image;
     }
@@ -97,8 +116,11 @@ Image readPicture(const FramePlan& plan, const Targets& targets, const View& vie
         // A scene without opaque surfaces has no data AOVs: they stay 0, "nothing is there".
         if (targets.has(layer.target)) {
             const bool sum = layer.channels[0] == "R" && !plan.contributionTargets.empty();
-            const std::vector<float> values = sum ? summedContributions(plan, targets)
-                                                  : readTarget(targets, layer.target, layer.components);
+            const bool light =
+                layer.channels[0] == "R" || layer.target.find("contribution.") != std::string::npos;
+            const std::vector<float> values = sum     ? summedContributions(plan, targets)
+                                              : light ? readRadiance(plan, targets, layer.target)
+                                                      : readTarget(targets, layer.target, layer.components);
             place(image, first, layer.channels.size(), values, static_cast<size_t>(layer.components));
             if (layer.channels[0] == "position.X")
                 for (size_t i = 0; i < image.pixelCount(); ++i) {

@@ -142,6 +142,8 @@ void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions&
         throw UsageError("resolution " + std::to_string(options.width) + "x" +
                          std::to_string(options.height) + "; expected at most " + std::to_string(most) +
                          " a side, the driver's limit");
+    if (options.quality.fresnel == FresnelEquations::schlick)
+        scene = std::make_shared<const Scene>(withSchlick(*scene));
     FramePlan plan = planFrame(summarise(*scene), options.quality, state_->capabilities, options.aovs);
     state_->current.reset();
     state_->current = std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan),

@@ -17,7 +17,8 @@ void CoveragePass::run(const View&) {
 }
 
 void AccumulatePass::prepare() {
-    program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
+    program_ = &resources().programs.get("pass/screen.vert", planned_.program,
+                                         planned_.variants.front().defines, {});
 }
 
 void AccumulatePass::run(const View&) {

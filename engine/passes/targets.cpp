@@ -11,6 +11,7 @@ GLenum formatOf(const std::string& name) {
                                                           {"RGBA16", GL_RGBA16},
                                                           {"R32F", GL_R32F},
                                                           {"RG32F", GL_RG32F},
+                                                          {"RGBA16F", GL_RGBA16F},
                                                           {"RGBA32F", GL_RGBA32F},
                                                           {"R8UI", GL_R8UI},
                                                           {"R16UI", GL_R16UI},

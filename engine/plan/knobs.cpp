@@ -5,6 +5,7 @@
 
 #include "base/closest_name.hpp"
 #include "base/error.hpp"
+#include "plan/planner.hpp"
 
 namespace lobe {
 namespace {
@@ -33,6 +34,16 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
     return {};
 }
 
+/// Why no stored normal is read: those of punctual lights are the only ones that show.
+std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
+    if (scene.directionalLights + scene.pointLights + scene.spotLights == 0)
+        return "no light reads the normal";
+    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(),
+                                   [](const BrdfFacts& facts) { return scattersLight(facts.name); });
+    return shows ? "" : "no opaque surface shows punctual light";
+}
+
 std::string withoutTextures(const SceneSummary& scene, const Quality&) {
     return scene.textures.empty() ? "no texture in the scene" : "";
 }
@@ -43,6 +54,13 @@ std::string withoutDeferred(const SceneSummary& scene, const Quality&) {
 
 std::string withoutRanges(const SceneSummary& scene, const Quality&) {
     return scene.rangedPointLights + scene.rangedSpotLights > 0 ? "" : "no light with a range in the scene";
+}
+
+std::string withoutExactFresnel(const SceneSummary& scene, const Quality&) {
+    if (scene.exactFresnel > 0) return {};
+    return scene.keptFresnel.empty()
+               ? "no material in use has exact Fresnel equations"
+               : "no exact Fresnel equations can be replaced: " + scene.keptFresnel.begin()->first;
 }
 
 bool isAllowed(const Knob& knob, const std::string& value) {
@@ -73,6 +91,18 @@ const std::vector<Knob>& knobTable() {
          .get = [](const Quality& q) { return std::to_string(q.gbufferBits); },
          .set = [](Quality& q, const std::string& value) { q.gbufferBits = std::stoi(value); },
          .withoutEffect = withoutGbuffer},
+        {.name = "normal_bits",
+         .title = "Normal bits",
+         .help =
+             "bits of each of a normal's two coordinates in the G-buffer; auto: what the sharpest lobe needs",
+         .values = {"8", "16", "auto", "32"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return q.normalBits == 0 ? "auto" : std::to_string(q.normalBits);
+         },
+         .set = [](Quality& q,
+                   const std::string& value) { q.normalBits = value == "auto" ? 0 : std::stoi(value); },
+         .withoutEffect = withoutNormal},
         {.name = "texture_bits",
          .title = "Texture bits",
          .help = "bits of each texel component that is filtered",
@@ -102,6 +132,28 @@ const std::vector<Knob>& knobTable() {
          .get = [](const Quality& q) { return std::to_string(q.clusterFrom); },
          .set = [](Quality& q, const std::string& value) { q.clusterFrom = std::stoi(value); },
          .withoutEffect = withoutRanges},
+        {.name = "radiance_bits",
+         .title = "Radiance bits",
+         .help = "bits of each component that lights are added up in; with 16, radiance from 65504 on is an "
+                 "error",
+         .values = {"16", "32"},
+         .range = {},
+         .get = [](const Quality& q) { return std::to_string(q.radianceBits); },
+         .set = [](Quality& q, const std::string& value) { q.radianceBits = std::stoi(value); },
+         .withoutEffect = always},
+        {.name = "fresnel",
+         .title = "Fresnel",
+         .help = "exact equations where materials have them, or Schlick's approximation with the same F0",
+         .values = {"schlick", "exact"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return q.fresnel == FresnelEquations::schlick ? "schlick" : "exact";
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.fresnel = value == "schlick" ? FresnelEquations::schlick : FresnelEquations::exact;
+             },
+         .withoutEffect = withoutExactFresnel},
     };
     return table;
 }

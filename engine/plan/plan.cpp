@@ -19,6 +19,7 @@ int bytesOfFormat(const std::string& format) {
                                                      {"RGBA16", 8},
                                                      {"R32F", 4},
                                                      {"RG32F", 8},
+                                                     {"RGBA16F", 8},
                                                      {"RGBA32F", 16},
                                                      {"R8UI", 1},
                                                      {"R16UI", 2},

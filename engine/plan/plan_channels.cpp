@@ -80,12 +80,19 @@ void Planner::planNormal() {
                  !anyLight_ ? "no light reads it" : "no opaque surface shows punctual light");
         return;
     }
-    const bool wide = plan_.quality.gbufferBits == 32 || sharpness > kSharpnessOf16Bits;
-    wideNormal_ = wide;
-    addTarget("normal", wide ? "RG32F" : "RG16", "octahedral shading normal",
-              plan_.quality.gbufferBits == 32 ? "quality asks for full precision"
-              : wide                          ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
-                                              : "16 bits change no lobe here by more than 1 %");
+    const int asked = plan_.quality.normalBits;
+    const bool full = plan_.quality.gbufferBits == 32;
+    const bool sharp = sharpness > kSharpnessOf16Bits;
+    normalBits_ = asked != 0 ? asked : full || sharp ? 32 : 16;
+    addTarget("normal", unormFormat(2, normalBits_), "octahedral shading normal",
+              asked != 0 ? "normal_bits asks for " + std::to_string(asked) + " bits: off by at most " +
+                               (asked == 8    ? "1.7e-2"
+                                : asked == 16 ? "6.4e-5"
+                                              : "3.2e-7") +
+                               " rad"
+              : full  ? "quality asks for full precision"
+              : sharp ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
+                      : "16 bits change no lobe here by more than 1 %");
 }
 
 void Planner::planTangent() {
@@ -104,6 +111,13 @@ void Planner::planTable() {
     for (const auto& [what, materials] : scene_.bands)
         plan_.notes.push_back("Fresnel's equations: " + what + " of wavelength, for " +
                               plural(materials, "material") + "; exact in each, then summed to linear sRGB");
+    if (plan_.quality.fresnel == FresnelEquations::schlick) {
+        plan_.notes.emplace_back(
+            "Fresnel's equations: Schlick's approximation of the same F0 where exact ones were");
+        for (const auto& [why, materials] : scene_.keptFresnel)
+            plan_.notes.push_back("Fresnel's equations: exact in " + plural(materials, "material") +
+                                  ", since " + why);
+    }
     if (scene_.bands.empty())
         leaveOut("program part", "bands of wavelength",
                  "no metal is to be evaluated in more than red, green and blue");
@@ -201,7 +215,12 @@ void Planner::planParameters() {
 }
 
 void Planner::planRadiance() {
-    addChannel("radiance", "RGBA32F", "radiance and coverage", "32-bit float until output");
+    const bool half = plan_.quality.radianceBits == 16;
+    const std::string format = half ? "RGBA16F" : "RGBA32F";
+    addChannel("radiance", format, "radiance and coverage",
+               half ? "radiance_bits asks for 16 bits: each light adds an error of up to 1e-3; from 65504 on "
+                      "radiance is infinite"
+                    : "32-bit float until output");
     const bool emitted = scene_.emission || scene_.ambient || unlit_;
     gbufferRadiance_ = hasDeferredSurface_ && emitted;
     if (gbufferRadiance_) plan_.gbufferTargets.push_back("radiance");
@@ -213,7 +232,7 @@ void Planner::planRadiance() {
     if (contributions_) {
         plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot", "transparent"};
         for (const std::string& name : plan_.contributionTargets)
-            addChannel("contribution." + name, "RGBA32F", "radiance from " + name, "asked for as AOV");
+            addChannel("contribution." + name, format, "radiance from " + name, "asked for as AOV");
         if (gbufferRadiance_) {
             plan_.gbufferTargets.pop_back();
             plan_.gbufferTargets.push_back("contribution.emission");

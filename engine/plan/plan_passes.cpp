@@ -21,7 +21,8 @@ std::string defineName(std::string name) {
 Planner::Defines Planner::commonDefines() const {
     Defines defines;
     if (!plan_.reversedDepth) defines["LINEAR_Z"] = "1";
-    if (wideNormal_) defines["NORMAL_32F"] = "1";
+    if (normalBits_ == 32) defines["NORMAL_32F"] = "1";
+    if (normalBits_ == 8) defines["NORMAL_8"] = "1";
     if (plan_.channel("normal") != nullptr) defines["HAS_NORMAL"] = "1";
     if (plan_.channel("material") != nullptr) defines["HAS_MATERIAL"] = "1";
     for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
@@ -185,9 +186,11 @@ void Planner::planAccumulation() {
     if (plan_.samples == 1) return leaveOut("pass", "accumulate", "one sample a pixel");
     addChannel("accumulated", "RGBA32F", "sum of jittered frames",
                "anti-aliasing by " + std::to_string(plan_.samples) + " samples");
+    Defines defines;
+    if (plan_.quality.radianceBits == 16) defines["RADIANCE_16F"] = "1";
     plan_.passes.push_back({"accumulate",
                             "pass/accumulate.frag",
-                            {{}},
+                            {{"", -1, defines}},
                             {"radiance"},
                             {"accumulated"},
                             plural(plan_.samples, "jittered frame") + " averaged"});

@@ -76,8 +76,8 @@ private:
     FramePlan plan_;
     bool deferred_ = true, anyLight_ = false, unlit_ = false, hasDeferredSurface_ = false,
          needsDeferredTargets_ = false;
-    bool dataAovs_ = false, contributions_ = false, gbufferRadiance_ = false, wideNormal_ = false,
-         table_ = false;
+    bool dataAovs_ = false, contributions_ = false, gbufferRadiance_ = false, table_ = false;
+    int normalBits_ = 16;  ///< of the target, where there is one
 };
 
 }  // namespace lobe

@@ -12,18 +12,31 @@ enum class Shading : uint8_t {
     forward  ///< every surface in the forward pass: the check on the deferred path
 };
 
+enum class FresnelEquations : uint8_t {
+    exact,   ///< as each material says
+    schlick  ///< Schlick's approximation in place of the exact equations (withSchlick())
+};
+
 struct Quality {
     /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none,
     /// ssaa4, ssaa16).
     int samples = 4;
-    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals: 32 here means
-    /// 2x32F.
+    /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals follow where
+    /// normalBits does not say otherwise: 32 here means 2x32F.
     int gbufferBits = 16;
+    /// Bits of each of the two octahedral coordinates of a normal in the G-buffer: 8, 16 (unorm) or 32
+    /// (float); 0: what the sharpest lobe needs, 16 or 32.
+    int normalBits = 0;
     /// Bits a texel component of textures that are filtered: 8, 16 or 32 (float).
     int textureBits = 8;
     Shading shading = Shading::deferred;
     /// Light lists per cluster of pixels: from this many lights of a type on; 0: never.
     int clusterFrom = 9;
+
+    /// Bits of each component of the target that lights add to: 16 or 32 (float). The mean of the samples has
+    /// 32 either way. A sample's radiance from 65504 on is infinite with 16.
+    int radianceBits = 32;
+    FresnelEquations fresnel = FresnelEquations::exact;
 
     bool operator==(const Quality&) const = default;
 };

@@ -235,6 +235,9 @@ SceneSummary summarise(const Scene& scene) {
         summary.brdfs.push_back(factsOf(name, list));
     }
     countBands(scene, materials, summary);
+    for (int material : materials)
+        if (const auto why = whyFresnelStays(scene.materials[static_cast<size_t>(material)]))
+            ++(why->empty() ? summary.exactFresnel : summary.keptFresnel[*why]);
     summary.tableRows = tableRows(scene.materials);
     summary.surfaces.assign(surfaces.begin(), surfaces.end());
     summary.materialsInUse.assign(materials.begin(), materials.end());

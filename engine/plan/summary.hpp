@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -58,9 +59,11 @@ struct SurfaceFeatures {
 
 struct SceneSummary {
     std::set<std::string>
-        bandedBrdfs;  ///< models of materials whose metals are evaluated in bands of wavelength
-    std::map<std::string, int> bands;  ///< "gold in 16 bands" -> materials
-    size_t tableRows = 0;              ///< of the tables that models read beside their parameters
+        bandedBrdfs;       ///< models of materials whose metals are evaluated in bands of wavelength
+    int exactFresnel = 0;  ///< materials that withSchlick() would change
+    std::map<std::string, int> keptFresnel;  ///< why others' exact Fresnel equations stay -> materials
+    std::map<std::string, int> bands;        ///< "gold in 16 bands" -> materials
+    size_t tableRows = 0;                    ///< of the tables that models read beside their parameters
     std::vector<BrdfFacts> brdfs;  ///< sorted by name; kUnlit included; of opaque and masked surfaces only
     std::set<std::string> blendedBrdfs;
     std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once
@@ -110,6 +113,15 @@ Scene withParameters(const Scene& scene, const std::vector<ParameterOverride>& c
 /// The scene with the metals that it names, where their spectra are known, in `count` bands of wavelength (4
 /// to 64) in place of three indices; of others it says in its warnings that they stay in RGB.
 Scene withBands(const Scene& scene, int count);
+
+/// Why withSchlick() leaves a material's exact Fresnel equations; empty if it replaces them. Without a value
+/// if the material has none.
+std::optional<std::string> whyFresnelStays(const Material& material);
+
+/// The scene with Schlick's approximation, of the same reflectance at normal incidence, in place of exact
+/// Fresnel equations. They stay where one F0 cannot stand for them: in bands of wavelength, and under a
+/// textured index.
+Scene withSchlick(const Scene& scene);
 
 /// The documented light of a scene without any (docs/scenes.md): a key light over the camera's left shoulder
 /// and a little ambient. Returns false, and adds nothing, if the scene has a light or nothing that takes

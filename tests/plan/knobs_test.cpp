@@ -60,6 +60,18 @@ TEST(Knobs, SaysWhyAKnobHasNoEffect) {
     EXPECT_EQ(requireKnob("gbuffer_bits").withoutEffect(scene, {}), "");
     EXPECT_EQ(requireKnob("gbuffer_bits").withoutEffect(scene, {.shading = Shading::forward}),
               "forward shading has no G-buffer");
+    EXPECT_EQ(requireKnob("normal_bits").withoutEffect(scene, {}), "no light reads the normal");
+    scene.spotLights = 1;
+    EXPECT_EQ(requireKnob("normal_bits").withoutEffect(scene, {}), "no opaque surface shows punctual light");
+    scene.brdfs.emplace_back().name = "lambert";
+    EXPECT_EQ(requireKnob("normal_bits").withoutEffect(scene, {}), "");
+    EXPECT_EQ(requireKnob("fresnel").withoutEffect(scene, {}),
+              "no material in use has exact Fresnel equations");
+    scene.keptFresnel["the index is textured"] = 1;
+    EXPECT_EQ(requireKnob("fresnel").withoutEffect(scene, {}),
+              "no exact Fresnel equations can be replaced: the index is textured");
+    scene.exactFresnel = 1;
+    EXPECT_EQ(requireKnob("fresnel").withoutEffect(scene, {}), "");
     EXPECT_EQ(requireKnob("anti_aliasing").withoutEffect(scene, {}), "");
 }
 

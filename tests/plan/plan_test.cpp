@@ -117,6 +117,31 @@ TEST(Plan, WideNormalsForSharpLobes) {
     EXPECT_EQ(planOf(scene).channel("normal")->format, "RG32F");
 }
 
+TEST(Plan, NormalBitsWinOverTheSharpestLobe) {
+    Scene scene = litQuad("blinn_phong");
+    test::setParameter(scene.materials[0], "shininess", glm::dvec3(1e6));
+    const auto normal = [&](int bits, int gbufferBits) {
+        return *planOf(scene, {.gbufferBits = gbufferBits, .normalBits = bits}).channel("normal");
+    };
+    EXPECT_EQ(normal(8, 32).format, "RG8");
+    EXPECT_EQ(normal(16, 32).format, "RG16");
+    EXPECT_EQ(normal(32, 8).format, "RG32F");
+    EXPECT_THAT(normal(8, 16).reason, testing::HasSubstr("normal_bits asks for 8 bits"));
+    EXPECT_THAT(normal(0, 8).reason, testing::HasSubstr("sharpest lobe"));
+    EXPECT_TRUE(anyDefine(planOf(scene, {.normalBits = 8}), "NORMAL_8"));
+    EXPECT_FALSE(anyDefine(planOf(scene, {.normalBits = 8}), "NORMAL_32F"));
+}
+
+TEST(Plan, RadianceBitsAreTheFormatThatLightsAddTo) {
+    EXPECT_EQ(planOf(litQuad()).channel("radiance")->format, "RGBA32F");
+    const FramePlan plan = planOf(litQuad(), {.radianceBits = 16}, {Aov::radiance, Aov::contributions});
+    EXPECT_EQ(plan.channel("radiance")->format, "RGBA16F");
+    EXPECT_EQ(plan.channel("radiance")->bytesPerPixel, 8);
+    EXPECT_EQ(plan.channel("contribution.directional")->format, "RGBA16F");
+    EXPECT_EQ(plan.channel("accumulated")->format, "RGBA32F");
+    EXPECT_THAT(plan.channel("radiance")->reason, testing::HasSubstr("65504"));
+}
+
 TEST(Plan, WithoutClipControlLinearDepthIsAChannel) {
     Capabilities capabilities = modern();
     capabilities.clipControl = false;

@@ -19,21 +19,22 @@ protected:
                 {name, {"common/octahedral.glsl"}, {{type, "v"}}, "    result[0]." + call + ";", 1, {}}};
     }
 
-    /// The decoded directions; `bits16` through what a 16-bit unsigned normalised target keeps.
-    std::vector<glm::dvec3> roundTrip(const std::vector<glm::vec3>& directions, bool bits16) const {
+    /// The decoded directions through what an unsigned normalised target of `bits` keeps; 32: float.
+    std::vector<glm::dvec3> roundTrip(const std::vector<glm::vec3>& directions, int bits) const {
+        const bool unorm = bits < 32;
+        const double steps = std::exp2(bits) - 1.0;
         std::vector<float> inputs;
         for (const glm::vec3& n : directions)
             inputs.insert(inputs.end(), {n.x, n.y, n.z});
-        const std::string suffix = bits16 ? "_unorm16(v)" : "(v)";
+        const std::string suffix = unorm ? "_unorm" + std::to_string(bits) + "(v)" : "(v)";
         const auto codes = function("encode", "vec3", "xy = octahedral_encode" + suffix).evaluate(inputs);
         inputs.clear();
         for (size_t i = 0; i < codes.rows(); ++i)
             for (int c = 0; c < 2; ++c) {
                 const float code = codes.row(i)[static_cast<size_t>(c)];
-                EXPECT_GE(code, bits16 ? 0.0f : -1.0f);
+                EXPECT_GE(code, unorm ? 0.0f : -1.0f);
                 EXPECT_LE(code, 1.0f);
-                inputs.push_back(bits16 ? static_cast<float>(std::round(double(code) * 65535.0) / 65535.0)
-                                        : code);
+                inputs.push_back(unorm ? static_cast<float>(std::round(double(code) * steps) / steps) : code);
             }
         const auto decoded = function("decode", "vec2", "xyz = octahedral_decode" + suffix).evaluate(inputs);
         std::vector<glm::dvec3> result;
@@ -85,7 +86,7 @@ std::vector<glm::vec3> directionsOverTheSphere(int count) {
 /// less.
 TEST_P(Octahedral, SixteenBitsTurnByTheKnownAngle) {
     const auto directions = directionsOverTheSphere(test::tableScale(400000));
-    const Turn turn = turnOf(directions, roundTrip(directions, true));
+    const Turn turn = turnOf(directions, roundTrip(directions, 16));
     EXPECT_LE(turn.largest, 6.45e-5);
     EXPECT_GE(turn.largest, 5e-5);
     EXPECT_NEAR(turn.mean, 2.28e-5, 0.05e-5);
@@ -93,9 +94,20 @@ TEST_P(Octahedral, SixteenBitsTurnByTheKnownAngle) {
     std::printf("octahedral 2x16: mean %.3e, largest %.3e rad\n", turn.mean, turn.largest);
 }
 
+/// The same steps 32767 / 127 times as wide.
+TEST_P(Octahedral, EightBitsTurnByTheKnownAngle) {
+    const auto directions = directionsOverTheSphere(test::tableScale(400000));
+    const Turn turn = turnOf(directions, roundTrip(directions, 8));
+    EXPECT_LE(turn.largest, 1.7e-2);
+    EXPECT_GE(turn.largest, 5e-5 * 32767.0 / 127.0);
+    EXPECT_NEAR(turn.mean, 2.28e-5 * 32767.0 / 127.0, 0.05e-5 * 32767.0 / 127.0);
+    EXPECT_LT(turn.lengthError, 3 * kFloatRounding * 2);
+    std::printf("octahedral 2x8: mean %.3e, largest %.3e rad\n", turn.mean, turn.largest);
+}
+
 TEST_P(Octahedral, FloatsTurnByRoundingOnly) {
     const auto directions = directionsOverTheSphere(test::tableScale(400000));
-    const Turn turn = turnOf(directions, roundTrip(directions, false));
+    const Turn turn = turnOf(directions, roundTrip(directions, 32));
     EXPECT_LE(turn.largest, 3.2e-7);
     EXPECT_LE(turn.mean, 7e-8);
     EXPECT_LT(turn.lengthError, 3 * kFloatRounding * 2);
@@ -104,8 +116,8 @@ TEST_P(Octahedral, FloatsTurnByRoundingOnly) {
 
 TEST_P(Octahedral, AxesAreExact) {
     const std::vector<glm::vec3> axes{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (bool bits16 : {true, false}) {
-        const std::vector<glm::dvec3> decoded = roundTrip(axes, bits16);
+    for (int bits : {8, 16, 32}) {
+        const std::vector<glm::dvec3> decoded = roundTrip(axes, bits);
         for (size_t i = 0; i < axes.size(); ++i)
             EXPECT_EQ(decoded[i], glm::dvec3(axes[i])) << i;
     }
