@@ -8,20 +8,18 @@
 #include "gl/debug.hpp"
 #include "gl/objects.hpp"
 #include "gl/timer.hpp"
+#include "math/random.hpp"
 #include "passes/pass.hpp"
 #include "passes/readback.hpp"
 
 namespace lobe {
 namespace {
 
-/// Sample i of n within the pixel, relative to its centre: the R2 sequence (Roberts 2018), stratified and the
-/// same in every pixel. One sample is the centre.
+/// Sample i of n within the pixel, relative to its centre: Hammersley's points, whose mean is the centre for any
+/// power of two, so that the picture is not shifted. One sample is the centre.
 glm::dvec2 jitter(int index, int count) {
-    if (count == 1) return glm::dvec2(0.0);
-    const double g = 1.32471795724474602596;
-    const double x = 0.5 + (index + 1) / g;
-    const double y = 0.5 + (index + 1) / (g * g);
-    return {x - std::floor(x) - 0.5, y - std::floor(y) - 0.5};
+    const double across = (index + 0.5) / count - 0.5;
+    return {across, radicalInverse(2, static_cast<uint64_t>(index)) + 0.5 / count - 0.5};
 }
 
 }  // namespace
