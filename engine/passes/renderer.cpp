@@ -15,8 +15,8 @@
 namespace lobe {
 namespace {
 
-/// Sample i of n within the pixel, relative to its centre: Hammersley's points, whose mean is the centre for any
-/// power of two, so that the picture is not shifted. One sample is the centre.
+/// Sample i of n within the pixel, relative to its centre: Hammersley's points, whose mean is the centre for
+/// any power of two, so that the picture is not shifted. One sample is the centre.
 glm::dvec2 jitter(int index, int count) {
     const double across = (index + 0.5) / count - 0.5;
     return {across, radicalInverse(2, static_cast<uint64_t>(index)) + 0.5 / count - 0.5};
