@@ -6,7 +6,7 @@ import pathlib
 import subprocess
 import unittest
 
-from lobe_test import LobeTest, quad_scene
+from lobe_test import LOBE, LobeTest, quad_scene
 
 CHECK = os.environ.get("LOBE_CHECK_BIN")
 
@@ -51,7 +51,7 @@ class Reference(LobeTest):
         for arguments, code, text in ((("-o", "a.png"), 2, "expected .exr"), ((), 2, "output"),
                                       (("-o", "a.exr", "--error", "0"), 2, "--error"),
                                       (("-o", "a.exr", "--filter", "gauss"), 2, "--filter"),
-                                      (("-o", "none/a.exr"), 7, "none/a.exr")):
+                                      (("-o", "quad.gltf/a.exr"), 7, "quad.gltf/a.exr")):
             self.assertIn(text, self.reference(*arguments, expect=code).stderr, arguments)
         self.assertIn("expected one", self.lobe("reference", "-o", "a.exr", expect=2).stderr)
 
@@ -73,8 +73,10 @@ class Reference(LobeTest):
         for x in range(30, 290, 52):
             for y in (50, 90, 130):
                 file = self.folder / f"pixel_{x}_{y}_test.glsl"
-                self.lobe("explain", str(scenes / "models.gltf"), "-r", "320,180", "--pixel", f"{x},{y}", "--test", str(file),
-                          expect=None)
+                found = subprocess.run([LOBE, "explain", scenes / "models.gltf", "-r", "320,180", "--pixel", f"{x},{y}",
+                                        "--test", file], capture_output=True, text=True)
+                # Of measured tables and what no light reaches there is none.
+                self.assertTrue(found.returncode == 0 or "no test can be written" in found.stderr, found.stderr)
         files = sorted(self.folder.glob("pixel_*_test.glsl"))
         self.assertGreater(len(files), 5)
         run = subprocess.run([CHECK, *map(str, files)], capture_output=True, text=True)
