@@ -10,7 +10,7 @@
 namespace lobe {
 namespace {
 
-constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {"ssaa16", 16}, {"ssaa64", 64}};
+constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {"ssaa16", 16}};
 
 std::string samplesName(const Quality& quality) {
     for (const auto& [name, samples] : kSamples)
@@ -78,7 +78,7 @@ const std::vector<Knob>& knobTable() {
         {.name = "anti_aliasing",
          .title = "Anti-aliasing",
          .help = "samples a pixel",
-         .values = {"none", "ssaa4", "ssaa16", "ssaa64"},
+         .values = {"none", "ssaa4", "ssaa16"},
          .range = {},
          .get = samplesName,
          .set = setSamples,

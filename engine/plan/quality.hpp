@@ -19,7 +19,7 @@ enum class FresnelEquations : uint8_t {
 
 struct Quality {
     /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none,
-    /// ssaa4, ssaa16, ssaa64).
+    /// ssaa4, ssaa16).
     int samples = 4;
     /// Bits of each per-pixel parameter in the G-buffer: 8, 16 (unorm) or 32 (float). Normals follow where
     /// normalBits does not say otherwise: 32 here means 2x32F.

@@ -42,7 +42,7 @@ class Pictures(LobeTest):
     def test_every_quality_tone_curve_and_model_renders(self):
         for flag, values in (("--quality", ("draft", "balanced", "high", "converged")),
                              ("--tone-mapping", ("none", "reinhard", "aces", "agx", "neutral")),
-                             ("--anti-aliasing", ("none", "ssaa4", "ssaa16", "ssaa64")),
+                             ("--anti-aliasing", ("none", "ssaa4", "ssaa16")),
                              ("--brdf", ("lambert", "phong", "blinn_phong", "metallic_roughness")),
                              ("--shading", ("deferred", "forward")), ("--normals", ("file", "smooth", "flat"))):
             for value in values:

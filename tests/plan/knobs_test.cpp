@@ -45,7 +45,7 @@ TEST(Knobs, WrongNamesAndValuesAreRefused) {
         return "accepted";
     };
     EXPECT_THAT(message("anti_aliasin", "none"), testing::HasSubstr("did you mean 'anti_aliasing'?"));
-    EXPECT_THAT(message("anti_aliasing", "ssaa3"), testing::HasSubstr("none, ssaa4, ssaa16, ssaa64"));
+    EXPECT_THAT(message("anti_aliasing", "ssaa3"), testing::HasSubstr("none, ssaa4, ssaa16"));
     EXPECT_THAT(message("cluster_from", "-1"), testing::HasSubstr("from 0 to 1000000"));
     EXPECT_THAT(message("cluster_from", "1x"), testing::HasSubstr("from 0 to 1000000"));
     EXPECT_EQ(quality, Quality{});
