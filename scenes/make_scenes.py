@@ -649,13 +649,13 @@ def extreme():
 
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
-    for part in ("extreme", "data"):
+    for part in ("extreme", "data", "lights"):
         (folder / part).mkdir(parents=True, exist_ok=True)
     merl_table(folder / "data/metallic_paint.binary", (32, 24), metallic_paint)
     for name, make in (("white_plane", white_plane), ("spheres", spheres), ("lights", lights), ("teapot", teapots), ("textured", textured),
                        ("blend", blend), ("many_lights", many_lights), ("animated", animated), ("vases", vases),
-                       ("teapot_normals", teapot_normals), ("models", models), ("soft_light", soft_light),
-                       ("interior", interior)):
+                       ("teapot_normals", teapot_normals), ("models", models), ("lights/soft_light", soft_light),
+                       ("lights/interior", interior)):
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme():
         scene.write(folder / "extreme" / f"{name}.gltf")
