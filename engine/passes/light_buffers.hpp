@@ -1,6 +1,7 @@
 /// The scene's lights as texture buffers, relative to the eye, and their cluster lists for one view.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gl/objects.hpp"
@@ -35,6 +36,10 @@ public:
 
 private:
     void updateClusters(const View& view);
+    /// Metres beyond which the light shows nothing, or less than the plan's threshold; absent: none.
+    std::optional<double> reachOf(const Light& light) const;
+
+    double reach_;  ///< FramePlan::lightReach
 
     std::vector<const Light*> lights_[3];  ///< by type, those outside the clusters first
     int global_[3] = {0, 0, 0};

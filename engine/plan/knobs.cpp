@@ -82,6 +82,13 @@ int lightsOf(const SceneSummary& scene) {
     return count;
 }
 
+/// Why each light reaches all of the scene.
+std::string withoutReach(const SceneSummary& scene, const Quality& quality) {
+    if (scene.pointLights + scene.spotLights == 0) return "no point or spot light in the scene";
+    if (!scene.unbounded.empty()) return "what " + scene.unbounded + " reflects has no bound";
+    return quality.clusterFrom == 0 ? "clusters are off" : "";
+}
+
 std::string withoutLights(const SceneSummary& scene, const Quality&) {
     return lightsOf(scene) > 0 ? "" : "no light in the scene";
 }
@@ -271,7 +278,7 @@ const std::vector<Knob>& knobTable() {
          .range = {{0, 1000}},
          .get = [](const Quality& q) { return std::to_string(q.lightThreshold); },
          .set = [](Quality& q, const std::string& value) { q.lightThreshold = std::stoi(value); },
-         .withoutEffect = withoutLights},
+         .withoutEffect = withoutReach},
         {.name = "airlight_nodes",
          .title = "Airlight nodes",
          .help = "of the quadrature along the view ray, for each light that fog scatters; 0 for none",

@@ -69,6 +69,9 @@ struct FramePlan {
     bool masked = false;        ///< lighting passes are masked by stencil, a value a model
     bool ambient = false;
     bool clusteredPoint = false, clusteredSpot = false;
+    /// Metres beyond which a light of intensity 1 W/sr is left out; one of intensity I: times I^(1/5). 0:
+    /// none is.
+    double lightReach = 0.0;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
     std::vector<SurfaceFeatures> surfaces;

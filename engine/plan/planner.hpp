@@ -60,6 +60,7 @@ private:
     PlannedShadow shadowMethod(LightType type, int lights, int casting);
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
+    void planReach();
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights();
     Defines commonDefines() const;

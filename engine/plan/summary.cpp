@@ -1,6 +1,8 @@
 #include "plan/summary.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scene/brdf_tables.hpp"
 #include "shading/bands.hpp"
@@ -107,6 +109,8 @@ void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) 
 
 void countLights(const Scene& scene, SceneSummary& summary) {
     for (const Light& light : scene.lights) {
+        if (light.type == LightType::point || light.type == LightType::spot)
+            summary.reachWeight += reachWeight(light);
         if (light.castsShadow) ++summary.shadowLights[light.type];
         switch (light.type) {
             case LightType::directional:
@@ -128,6 +132,36 @@ void countLights(const Scene& scene, SceneSummary& summary) {
     summary.environment = scene.environment.has_value();
     summary.fog = scene.fog.has_value();
     summary.ambient = scene.ambientRadiance && *scene.ambientRadiance != glm::dvec3(0.0);
+}
+
+/// Parameters that a texture scales may be anything down to their minimum; those of colour only shrink, and
+/// the bound with them.
+double peakOf(const Material& material, const Primitive& primitive) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    if (material.brdf == kUnlit) return 0.0;
+    const Brdf& brdf = requireBrdf(material.brdf);
+    if (!brdf.traits.scattersLight) return 0.0;
+    if (!brdf.peak || !primitive.colors.empty()) return kNone;
+    ParameterValues values = material.values;
+    const auto largest = [&] {
+        const glm::dvec3 peak = brdf.peak(values);
+        const double most = std::max({peak.r, peak.g, peak.b});
+        return most < kNone ? most : kNone;
+    };
+    double peak = largest();
+    for (size_t p = 0; p < material.textures.size(); ++p) {
+        const Parameter& parameter = brdf.parameters[p];
+        if (!material.textures[p] || parameter.kind != ParameterKind::scalar) continue;
+        values[static_cast<size_t>(brdf.valueOffset(static_cast<int>(p)))] = parameter.minimum;
+        peak = std::max(peak, largest());
+    }
+    return peak;
+}
+
+void addPeak(const Material& material, const Primitive& primitive, SceneSummary& summary) {
+    const double peak = peakOf(material, primitive);
+    summary.peak = std::max(summary.peak, peak);
+    if (std::isinf(peak) && summary.unbounded.empty()) summary.unbounded = material.brdf;
 }
 
 void countBands(const Scene& scene, const std::set<int>& materials, SceneSummary& summary) {
@@ -194,6 +228,10 @@ SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primi
     return features;
 }
 
+double reachWeight(const Light& light) {
+    return std::pow(std::max({light.intensity.r, light.intensity.g, light.intensity.b}), 0.6);
+}
+
 SceneSummary summarise(const Scene& scene) {
     SceneSummary summary;
     countLights(scene, summary);
@@ -205,6 +243,7 @@ SceneSummary summarise(const Scene& scene) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
         const SurfaceFeatures features = surfaceFeatures(material, primitive, summary.ambient);
+        addPeak(material, primitive, summary);
         surfaces.insert(features);
         materials.insert(primitive.material);
         ++summary.instances;

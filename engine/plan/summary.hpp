@@ -73,6 +73,11 @@ struct SceneSummary {
     std::map<LightType, int> bodyLights;    ///< rect, disk, sphere, tube: how many, where there are any
     std::map<LightType, int> shadowLights;  ///< that cast shadows, of each type
     bool environment = false, fog = false;
+    /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,
+    /// 1/sr, infinite where one has no bound, and then the model that has none.
+    double peak = 0.0;
+    std::string unbounded;
+    double reachWeight = 0.0;  ///< sum of lightReach()'s weights of point and spot lights
     bool ambient = false;
     bool emission = false;
     bool opaque = false, masked = false, blended = false;
@@ -92,6 +97,10 @@ struct SceneSummary {
 };
 
 SceneSummary summarise(const Scene& scene);
+
+/// Largest channel of a light's intensity to the power 3/5. Lights that may each take as much from a pixel as
+/// their weight's share of the sum have the least volume to light in sum.
+double reachWeight(const Light& light);
 
 /// What a material asks of a surface shader, with the vertex data that `primitive` brings. Occlusion textures
 /// count only where there is ambient light for them to act on.

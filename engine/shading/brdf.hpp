@@ -139,6 +139,11 @@ struct Brdf {
     /// (algorithms: 2/alpha for GGX, sqrt(n) for Blinn-Phong, 2 sqrt(n) for Phong, 0 for Lambert).
     std::function<double(std::span<const double>)> lobeSharpness;
 
+    /// An upper bound of fCos over all directions, per channel, that does not fall where a parameter's value
+    /// rises within rgb parameters, and is largest at an end of the range of any other. Absent: none is
+    /// known, or the formula has none.
+    std::function<glm::dvec3(std::span<const double>)> peak;
+
     /// Lobes from which to draw wi for this wo (sampling.hpp). Absent: found from fCos.
     std::function<SamplingLobes(const glm::dvec3& wo, std::span<const double>)> samplingLobes;
 
