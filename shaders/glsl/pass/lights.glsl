@@ -1,6 +1,6 @@
-/// lights.glsl - sums the punctual lights of each type at a point.
+/// lights.glsl - sums the lights of each type at a point; those with a body: pass/area_lights.glsl.
 ///
-/// Each light is three (directional: two) texels of a buffer, in camera-relative world space. Loops are do-while behind
+/// Each punctual light is three (directional: two) texels of a buffer, in camera-relative world space. Loops are do-while behind
 /// a define, so that a type without lights costs nothing, also where both sides of a branch are executed.
 /// Lights that reach everything come first; those with a range are listed by cluster: tiles of 64 x 64 pixels and
 /// slices of depth.
@@ -170,6 +170,11 @@ vec3 spot_lights_of_cluster(LightReceiver r, MODEL_PARAMS params)
 }
 #endif
 
+#if defined(RECT_LIGHTS) || defined(DISK_LIGHTS) || defined(SPHERE_LIGHTS) || defined(TUBE_LIGHTS)
+#define AREA_LIGHTS
+#include "pass/area_lights.glsl"
+#endif
+
 /// Light of every type that the defines name.
 vec3 all_lights(LightReceiver r, MODEL_PARAMS params)
 {
@@ -188,6 +193,9 @@ vec3 all_lights(LightReceiver r, MODEL_PARAMS params)
 #endif
 #ifdef SPOT_CLUSTERS
     sum += spot_lights_of_cluster(r, params);
+#endif
+#ifdef AREA_LIGHTS
+    sum += all_area_lights(r, params);
 #endif
     return sum;
 }
