@@ -39,6 +39,7 @@ private:
     std::vector<const Light*> lights_[3];  ///< by type, those outside the clusters first
     int global_[3] = {0, 0, 0};
     bool clustered_[3] = {false, false, false};
+    bool shadows_[3] = {false, false, false};  ///< whether slots of shadows go with the lights
     double sceneRadius_;
     glm::dvec3 sceneCenter_;
     gl::TextureBuffer buffers_[3];

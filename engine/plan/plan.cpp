@@ -52,6 +52,7 @@ FramePlan Planner::plan() {
     contributions_ = aovs_.contains(Aov::contributions);
 
     planModels();
+    planShadows();
     planTable();
     planGeometryChannels();
     planRadiance();
@@ -61,6 +62,16 @@ FramePlan Planner::plan() {
     for (const std::string& texture : scene_.unusedTextures)
         leaveOut("texture", texture, "no material in use reads it");
     return std::move(plan_);
+}
+
+PlannedShadow FramePlan::shadowOf(LightType type) const {
+    const auto found = shadows.find(type);
+    return found == shadows.end() ? PlannedShadow::none : found->second;
+}
+
+bool FramePlan::anyShadow() const {
+    return std::any_of(shadows.begin(), shadows.end(),
+                       [](const auto& entry) { return entry.second != PlannedShadow::none; });
 }
 
 const PlannedPass* FramePlan::pass(std::string_view name) const {

@@ -59,6 +59,9 @@ struct LeftOut {
     std::string reason;
 };
 
+/// How the shadows of one type of light are found.
+enum class PlannedShadow : uint8_t { none, maps, rays };
+
 struct FramePlan {
     Quality quality;
     int samples = 1;
@@ -67,6 +70,7 @@ struct FramePlan {
     bool ambient = false;
     bool clusteredPoint = false, clusteredSpot = false;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
+    std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
@@ -82,6 +86,8 @@ struct FramePlan {
     std::vector<std::string> textures;  ///< for people: one line a texture kept
     std::vector<std::string> notes;     ///< decisions about the whole frame
 
+    PlannedShadow shadowOf(LightType type) const;
+    bool anyShadow() const;
     const PlannedPass* pass(std::string_view name) const;
     const Channel* channel(std::string_view name) const;
     const PlannedBrdf* brdf(std::string_view name) const;

@@ -63,6 +63,7 @@ void Planner::planGeometryChannels() {
     if (!plan_.reversedDepth && needsPosition)
         addTarget("linear_z", "R32F", "distance along the view axis, m", "position, without clip control");
     planNormal();
+    planGeometricNormal();
     planTangent();
     planMaterialId();
     planParameters();
@@ -93,6 +94,13 @@ void Planner::planNormal() {
               : full  ? "quality asks for full precision"
               : sharp ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
                       : "16 bits change no lobe here by more than 1 %");
+}
+
+void Planner::planGeometricNormal() {
+    if (!plan_.anyShadow())
+        return leaveOut("channel", "geometric_normal", "no shadow is sought from the surface");
+    addTarget("geometric_normal", "RG16", "octahedral normal of the triangle, towards the eye",
+              "the way to a light starts beside the surface, not at its shading normal");
 }
 
 void Planner::planTangent() {

@@ -56,7 +56,7 @@ void Planner::planLights() {
         clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
     requireFit("directional", scene_.directionalLights, 2);
     requireFit("point", scene_.pointLights, 2);
-    requireFit("spot", scene_.spotLights, 3);
+    requireFit("spot", scene_.spotLights, plan_.shadowOf(LightType::spot) == PlannedShadow::none ? 3 : 4);
     requireForwardLoop("directional", scene_.directionalLights);
     requireForwardLoop("point", plan_.globalPointLights);
     requireForwardLoop("spot", plan_.globalSpotLights);

@@ -48,6 +48,16 @@ void Planner::lightDefines(Defines& defines, LightType type) const {
     }
 }
 
+void Planner::shadowDefines(Defines& defines, LightType type) const {
+    static const std::map<LightType, std::string> kNames{
+        {LightType::directional, "DIRECTIONAL"}, {LightType::point, "POINT"}, {LightType::spot, "SPOT"}};
+    const PlannedShadow method = plan_.shadowOf(type);
+    if (method == PlannedShadow::none) return;
+    defines["SHADOWS"] = "1";
+    defines[kNames.at(type) + "_SHADOWS"] = "1";
+    defines[kNames.at(type) + (method == PlannedShadow::rays ? "_SHADOW_RAYS" : "_SHADOW_MAPS")] = "1";
+}
+
 Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const {
     Defines defines;
     const auto flag = [&](const char* key, bool on) {
@@ -132,7 +142,7 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
                      {"depth"},
                      {contributions_ ? "contribution." + kind : "radiance"},
                      plural(count, kind + " light")};
-    for (const char* channel : {"linear_z", "normal", "tangent", "material"})
+    for (const char* channel : {"linear_z", "normal", "geometric_normal", "tangent", "material"})
         if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
     for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
         pass.reads.push_back("parameters" + std::to_string(i));
@@ -145,6 +155,7 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
         for (const auto& [key, value] : lights) {
             Defines defines = commonDefines();
             defines[key] = value;
+            shadowDefines(defines, type);
             if (requireBrdf(brdf.name).traits.usesTangent) defines["USES_TANGENT"] = "1";
             if (scene_.bandedBrdfs.contains(brdf.name)) defines["FRESNEL_BANDS"] = "1";
             if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
@@ -169,9 +180,14 @@ void Planner::planForward() {
         if (deferred_ && features.alphaMode != AlphaMode::blend) continue;
         Defines defines = surfaceDefines(features);
         if (scattersLight(features.brdf)) {
-            if (scene_.directionalLights > 0) lightDefines(defines, LightType::directional);
-            if (scene_.pointLights > 0) lightDefines(defines, LightType::point);
-            if (scene_.spotLights > 0) lightDefines(defines, LightType::spot);
+            const std::pair<LightType, int> types[] = {{LightType::directional, scene_.directionalLights},
+                                                       {LightType::point, scene_.pointLights},
+                                                       {LightType::spot, scene_.spotLights}};
+            for (const auto& [type, lights] : types) {
+                if (lights == 0) continue;
+                lightDefines(defines, type);
+                shadowDefines(defines, type);
+            }
         }
         if (contributions_) defines["CONTRIBUTIONS"] = "1";
         pass.variants.push_back({features.brdf, static_cast<int>(i), defines});

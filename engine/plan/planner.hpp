@@ -46,6 +46,7 @@ private:
     void planModels();
     void planGeometryChannels();
     void planNormal();
+    void planGeometricNormal();
     void planTangent();
     void planTable();
     void planMaterialId();
@@ -55,12 +56,15 @@ private:
     /// One loop of a fragment shader runs over all lights that reach everything; software drivers end loops
     /// at 65535.
     void requireForwardLoop(const char* type, int global) const;
+    void planShadows();
+    PlannedShadow shadowMethod(LightType type, int lights, int casting);
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights();
     Defines commonDefines() const;
     void lightDefines(Defines& defines, LightType type) const;
+    void shadowDefines(Defines& defines, LightType type) const;
     Defines surfaceDefines(const SurfaceFeatures& features) const;
     void planPasses();
     void planGbufferPass();

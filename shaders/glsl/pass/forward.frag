@@ -47,7 +47,11 @@ void main()
 #else
     Frame frame = frame_from_normal(surface_normal());
 #endif
-    radiance += all_lights(light_receiver(vPosition, ray, dot(vPosition, uForward), frame), params);
+    LightReceiver receiver = light_receiver(vPosition, ray, dot(vPosition, uForward), frame);
+#ifdef SHADOWS
+    receiver.geometric_normal = surface_geometric_normal();
+#endif
+    radiance += all_lights(receiver, params);
 #endif
 #ifdef CONTRIBUTIONS
     vec4 dim = vec4(0.0, 0.0, 0.0, alpha);

@@ -17,5 +17,8 @@ void main()
     Frame frame = frame_from_normal(gbuffer_normal());
 #endif
     LightReceiver receiver = light_receiver(gbuffer_position(z, ray), ray, z, frame);
+#ifdef SHADOWS
+    receiver.geometric_normal = gbuffer_geometric_normal();
+#endif
     oRadiance = vec4(all_lights(receiver, gbuffer_read_params()), 0.0);
 }

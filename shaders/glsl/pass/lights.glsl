@@ -14,13 +14,25 @@ struct LightReceiver {
     Frame frame;
     vec3 wo;        // wo_w in the frame
     float z;        // distance along the view axis, m
+#ifdef SHADOWS
+    vec3 geometric_normal;  // of the triangle, unit, world axes, towards the eye
+#endif
 };
 
 LightReceiver light_receiver(vec3 position, vec3 ray, float z, Frame frame)
 {
-    vec3 wo_w = -normalize(ray);
-    return LightReceiver(position, wo_w, frame, frame_to_local(frame, wo_w), z);
+    LightReceiver r;
+    r.position = position;
+    r.wo_w = -normalize(ray);
+    r.frame = frame;
+    r.wo = frame_to_local(frame, r.wo_w);
+    r.z = z;
+    return r;
 }
+
+#ifdef SHADOWS
+#include "shadow/visibility.glsl"
+#endif
 
 vec3 light_reflected(LightReceiver r, MODEL_PARAMS params, vec3 wi_w)
 {
@@ -28,7 +40,7 @@ vec3 light_reflected(LightReceiver r, MODEL_PARAMS params, vec3 wi_w)
 }
 
 #ifdef DIRECTIONAL_LIGHTS
-uniform samplerBuffer uDirectionalLights;  // to the light (unit), -; irradiance, -
+uniform samplerBuffer uDirectionalLights;  // to the light (unit), shadow's slot; irradiance, -
 uniform int uDirectionalFirst, uDirectionalEnd;
 
 vec3 directional_lights(LightReceiver r, MODEL_PARAMS params)
@@ -36,8 +48,12 @@ vec3 directional_lights(LightReceiver r, MODEL_PARAMS params)
     vec3 sum = vec3(0.0);
     int i = uDirectionalFirst;
     do {
-        vec3 wi_w = texelFetch(uDirectionalLights, 2 * i).xyz;
-        sum += texelFetch(uDirectionalLights, 2 * i + 1).xyz * light_reflected(r, params, wi_w);
+        vec4 light = texelFetch(uDirectionalLights, 2 * i);
+        vec3 irradiance = texelFetch(uDirectionalLights, 2 * i + 1).xyz;
+#ifdef DIRECTIONAL_SHADOWS
+        irradiance *= light_visibility_directional(light.w, r, light.xyz);
+#endif
+        sum += irradiance * light_reflected(r, params, light.xyz);
     } while (++i < uDirectionalEnd);
     return sum;
 }
@@ -57,13 +73,18 @@ int light_cluster(float z)
 #endif
 
 #if defined(POINT_LIGHTS) || defined(POINT_CLUSTERS)
-uniform samplerBuffer uPointLights;  // position, 1/range^2; radiant intensity, -
+uniform samplerBuffer uPointLights;  // position, 1/range^2; radiant intensity, shadow's slot
 
 vec3 point_light(int i, LightReceiver r, MODEL_PARAMS params)
 {
     vec4 light = texelFetch(uPointLights, 2 * i);
-    PunctualGeometry g = punctual_geometry(light.xyz - r.position, light.w);
-    return texelFetch(uPointLights, 2 * i + 1).xyz * (g.attenuation * light_reflected(r, params, g.wi));
+    vec4 intensity = texelFetch(uPointLights, 2 * i + 1);
+    vec3 to_light = light.xyz - r.position;
+    PunctualGeometry g = punctual_geometry(to_light, light.w);
+#ifdef POINT_SHADOWS
+    g.attenuation *= light_visibility_point(intensity.w, r, g.wi, dot(to_light, g.wi));
+#endif
+    return intensity.xyz * (g.attenuation * light_reflected(r, params, g.wi));
 }
 #endif
 #ifdef POINT_LIGHTS
@@ -97,15 +118,25 @@ vec3 point_lights_of_cluster(LightReceiver r, MODEL_PARAMS params)
 #endif
 
 #if defined(SPOT_LIGHTS) || defined(SPOT_CLUSTERS)
-uniform samplerBuffer uSpotLights;  // position, 1/range^2; radiant intensity, cone scale; axis (unit), cone offset
+// position, 1/range^2; radiant intensity, cone scale; axis (unit), cone offset; with shadows also -, shadow's slot
+uniform samplerBuffer uSpotLights;
+#ifdef SPOT_SHADOWS
+const int SPOT_TEXELS = 4;
+#else
+const int SPOT_TEXELS = 3;
+#endif
 
 vec3 spot_light(int i, LightReceiver r, MODEL_PARAMS params)
 {
-    vec4 light = texelFetch(uSpotLights, 3 * i);
-    vec4 intensity = texelFetch(uSpotLights, 3 * i + 1);
-    vec4 axis = texelFetch(uSpotLights, 3 * i + 2);
-    PunctualGeometry g = punctual_geometry(light.xyz - r.position, light.w);
+    vec4 light = texelFetch(uSpotLights, SPOT_TEXELS * i);
+    vec4 intensity = texelFetch(uSpotLights, SPOT_TEXELS * i + 1);
+    vec4 axis = texelFetch(uSpotLights, SPOT_TEXELS * i + 2);
+    vec3 to_light = light.xyz - r.position;
+    PunctualGeometry g = punctual_geometry(to_light, light.w);
     float cone = spot_attenuation(axis.xyz, g.wi, intensity.w, axis.w);
+#ifdef SPOT_SHADOWS
+    cone *= light_visibility_spot(texelFetch(uSpotLights, SPOT_TEXELS * i + 3).w, r, g.wi, dot(to_light, g.wi));
+#endif
     return intensity.xyz * (g.attenuation * cone * light_reflected(r, params, g.wi));
 }
 #endif
