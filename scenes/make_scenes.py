@@ -603,6 +603,47 @@ def interior():
     return g
 
 
+def balls_of_models():
+    """A ball for every model on the ground, five a row in the order of their names, the first row at the back."""
+    g = Gltf()
+    positions, normals, uvs, indices = sphere(28)
+    shape = g.geometry(positions, normals, indices, [uvs])
+    for i, name in enumerate(sorted(path.stem for path in (HERE / "../shaders/glsl/brdf").glob("*.glsl"))):
+        parameters = dict(MODELS.get(name, {}))
+        if "file" in parameters:
+            parameters["file"] = pathlib.Path(parameters["file"]).name  # beside the scene: paths may not leave its folder
+        material = g.material(name, brdf={"model": name, **parameters})
+        g.node(name=name, mesh=g.mesh({**shape, "material": material}), scale=[0.42] * 3,
+               translation=[1.1 * (i % 5 - 2), 0.42, 1.2 * (i // 5 - 1)])
+    place(g, ground(5), g.material("ground", brdf={"model": "lambert", "diffuse": [0.3, 0.31, 0.33]}), uvs=False)
+    g.camera((0, 3.0, 5.6), (0, 0.25, -0.1), 40)
+    return g
+
+
+def rect_light():
+    g = balls_of_models()
+    g.area_light("rect", 9.0, 0.8, (-1.3, 2.4, 1.6), (0.45, -1, -0.6), aspect=2)
+    return g
+
+
+def disk_light():
+    g = balls_of_models()
+    g.area_light("disk", 14.0, 1.1, (1.6, 2.4, 1.4), (-0.5, -1, -0.55))
+    return g
+
+
+def sphere_light():
+    g = balls_of_models()
+    g.light("point", 9.0, position=(-0.9, 2.2, 1.9), shape={"shape": "sphere", "radius": 0.35})
+    return g
+
+
+def tube_light():
+    g = balls_of_models()
+    g.light("point", 8.0, position=(0, 1.9, 1.9), shape={"shape": "tube", "radius": 0.05, "length": 3.0})
+    return g
+
+
 def extreme():
     shiny = {"model": "blinn_phong", "diffuse": [0.2] * 3, "specular": [0.8] * 3, "shininess": 1e6, "normalization": "energy"}
     yield "roughness_0", ball_scene(lambda g: g.material("mirror-like", (0.9, 0.9, 0.9), 1.0, 0.0))
@@ -651,11 +692,13 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     for part in ("extreme", "data", "lights"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    merl_table(folder / "data/metallic_paint.binary", (32, 24), metallic_paint)
+    for part in ("data", "lights"):
+        merl_table(folder / part / "metallic_paint.binary", (32, 24), metallic_paint)
     for name, make in (("white_plane", white_plane), ("spheres", spheres), ("lights", lights), ("teapot", teapots), ("textured", textured),
                        ("blend", blend), ("many_lights", many_lights), ("animated", animated), ("vases", vases),
                        ("teapot_normals", teapot_normals), ("models", models), ("lights/soft_light", soft_light),
-                       ("lights/interior", interior)):
+                       ("lights/interior", interior), ("lights/rect", rect_light), ("lights/disk", disk_light),
+                       ("lights/sphere", sphere_light), ("lights/tube", tube_light)):
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme():
         scene.write(folder / "extreme" / f"{name}.gltf")

@@ -18,7 +18,8 @@ void BodyLightPass::prepare() {
 
 void BodyLightPass::draw(const Variant& variant, const gl::Program& shader) const {
     if (variant.defines.contains("MIRRORED_LIGHTS")) return resources().inputs.drawScreen(shader);
-    const bool rays = variant.defines.contains("AREA_SHADOWS") || variant.defines.contains("AREA_HARD_SHADOWS");
+    const bool rays =
+        variant.defines.contains("AREA_SHADOWS") || variant.defines.contains("AREA_HARD_SHADOWS");
     const int most = rays ? kRaysPerDraw : kPointsPerDraw;
     const int points = variant.defines.contains("AREA_SAMPLED") ? plan().areaPoints : 1;
     const int pointsEach = std::min(points, most);
@@ -41,8 +42,9 @@ void BodyLightPass::run(const View& view) {
         const PlannedBrdf& brdf = *plan().brdf(variant.brdf);
         const gl::Program& shader = program(variant);
         shader.use();
-        const int unit = resources().inputs.bind(shader, targets(), view, brdf);
-        resources().bodies.bind(shader, unit, plan().areaPoints);
+        int unit = resources().inputs.bind(shader, targets(), view, brdf);
+        unit = resources().bodies.bind(shader, unit, plan().areaPoints);
+        resources().rays.bind(shader, unit, view);
         resources().inputs.setMask(&brdf);
         draw(variant, shader);
     }

@@ -4,8 +4,8 @@
 
 namespace lobe {
 
-/// Adds the light of bodies of one type to all surfaces: one program a model in use, masked by stencil. Draws are split
-/// by lights and by points on them, so that no loop of a shader is too long.
+/// Adds the light of bodies of one type to all surfaces: one program a model in use, masked by stencil. Draws
+/// are split by lights and by points on them, so that no loop of a shader is too long.
 class BodyLightPass : public Pass {
 public:
     BodyLightPass(const PlannedPass& planned, FrameResources& resources, LightType type)

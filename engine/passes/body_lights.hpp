@@ -19,8 +19,8 @@ public:
     /// Positions are made relative to the eye in double and sent. `frame`: number of the jittered frame.
     void update(const View& view, int frame);
 
-    /// Texture units from `firstUnit` on, and every uniform of these lights that the program uses: all lights, and
-    /// `points` on each. Returns the first free unit.
+    /// Texture units from `firstUnit` on, and every uniform of these lights that the program uses: all
+    /// lights, and `points` on each. Returns the first free unit.
     int bind(const gl::Program& program, int firstUnit, int points) const;
 
     /// The part of them that one draw adds: lights [first, end) of a type, and points [from, to) of `points`.

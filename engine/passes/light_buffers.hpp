@@ -23,8 +23,8 @@ public:
     void update(const View& view);
 
     /// Texture units from `firstUnit` on, and every light uniform that the program uses, for all lights of
-    /// its types.
-    void bind(const gl::Program& program, int firstUnit) const;
+    /// its types. Returns the first free unit.
+    int bind(const gl::Program& program, int firstUnit) const;
 
     int count(LightType type) const { return static_cast<int>(lights_[static_cast<size_t>(type)].size()); }
     /// Lights of the type that are outside the clusters: the first ones of its buffer.

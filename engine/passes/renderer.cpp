@@ -58,8 +58,10 @@ struct Renderer::State {
               tables(*scene),
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
+              bodies(*scene, plan),
+              rays(plan.usesRays() ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               inputs(*scene, plan, tables),
-              resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
+              resources{*scene, plan, programs, targets, surfaces, lights, bodies, rays, inputs} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
@@ -79,6 +81,8 @@ struct Renderer::State {
         BrdfTableBuffer tables;
         SurfaceDraws surfaces;
         LightBuffers lights;
+        BodyLights bodies;
+        RayScene rays;
         ScreenInputs inputs;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
@@ -184,6 +188,7 @@ Picture Renderer::render(const Camera& camera) {
         const View view = state_->adapted(
             makeView(camera, options.width, options.height, jitter(sample, current.plan.samples)));
         current.lights.update(view);
+        current.bodies.update(view, sample);
         mark("lights");
         state_->clearPictures();
         for (const auto& pass : current.frame) {

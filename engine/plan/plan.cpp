@@ -75,6 +75,11 @@ bool FramePlan::anyShadow() const {
                        [](const auto& entry) { return entry.second != PlannedShadow::none; });
 }
 
+bool FramePlan::usesRays() const {
+    return std::any_of(shadows.begin(), shadows.end(),
+                       [](const auto& entry) { return entry.second == PlannedShadow::rays; });
+}
+
 const PlannedPass* FramePlan::pass(std::string_view name) const {
     for (const PlannedPass& candidate : passes)
         if (candidate.name == name) return &candidate;

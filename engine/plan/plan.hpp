@@ -82,7 +82,7 @@ struct FramePlan {
     bool clusteredPoint = false, clusteredSpot = false;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
-    std::map<std::string, PlannedArea> areaMethods;  ///< by model, where the scene has lights with a body
+    std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
     int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
     int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
     std::vector<SurfaceFeatures> surfaces;
@@ -102,14 +102,15 @@ struct FramePlan {
 
     PlannedShadow shadowOf(LightType type) const;
     bool anyShadow() const;
+    bool usesRays() const;  ///< for shadows of some type of light
     const PlannedPass* pass(std::string_view name) const;
     const Channel* channel(std::string_view name) const;
     const PlannedBrdf* brdf(std::string_view name) const;
     int gbufferBytesPerPixel() const;
 };
 
-/// Most rays, and most points on lights without rays, that one draw's fragment may go through: llvmpipe ends loops at
-/// 65535 rounds in all, and a ray takes up to some hundred.
+/// Most rays, and most points on lights without rays, that one draw's fragment may go through: llvmpipe ends
+/// loops at 65535 rounds in all, and a ray takes up to some hundred.
 inline constexpr int kRaysPerDraw = 64;
 inline constexpr int kPointsPerDraw = 32768;
 

@@ -73,12 +73,12 @@ void Planner::planBodyLights() {
                                     ", one loop over all" + (models.empty() ? "" : "; " + joined(models)));
         requireFit(nameOf(type), count, 4);
     }
-    const bool sampled = std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(), [](const auto& entry) {
-        return entry.second.method == AreaMethod::sampled;
-    });
-    const bool scattered = std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(), [](const auto& entry) {
-        return entry.second.method != AreaMethod::mirrored;
-    });
+    const bool sampled =
+        std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(),
+                    [](const auto& entry) { return entry.second.method == AreaMethod::sampled; });
+    const bool scattered =
+        std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(),
+                    [](const auto& entry) { return entry.second.method != AreaMethod::mirrored; });
     if (!sampled && !(soft && scattered)) {
         leaveOut("program part", "points on lights",
                  !scattered ? "no surface scatters light of a body"

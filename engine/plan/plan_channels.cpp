@@ -80,9 +80,9 @@ void Planner::planNormal() {
     }
     if (!read && !wants(Aov::normal)) {
         leaveOut("channel", "normal",
-                 !anyLight_                   ? "no light reads it"
+                 !anyLight_                  ? "no light reads it"
                  : scene_.bodyLights.empty() ? "no opaque surface shows punctual light"
-                                              : "no opaque surface shows these lights");
+                                             : "no opaque surface shows these lights");
         return;
     }
     const int asked = plan_.quality.normalBits;
@@ -226,8 +226,8 @@ void Planner::planParameters() {
     }
 }
 
-/// The forward pass writes to all contributions, and coverage, at once. Where they are too many for the driver, those of
-/// kinds of light that the scene lacks go.
+/// The forward pass writes to all contributions, and coverage, at once. Where they are too many for the
+/// driver, those of kinds of light that the scene lacks go.
 void Planner::requireContributionTargets() {
     if (deferred_ && !scene_.blended) return;
     const auto most = static_cast<size_t>(capabilities_.maxColorAttachments) - 1;

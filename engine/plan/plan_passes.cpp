@@ -135,7 +135,8 @@ void Planner::planCoverage() {
 PlannedPass Planner::lightPass(const std::string& name, const std::string& kind,
                                const std::string& reason) const {
     PlannedPass pass{
-        name, "pass/light.frag", {}, {"depth"}, {contributions_ ? "contribution." + kind : "radiance"}, reason};
+        name,  "pass/light.frag", {}, {"depth"}, {contributions_ ? "contribution." + kind : "radiance"},
+        reason};
     for (const char* channel : {"linear_z", "normal", "geometric_normal", "tangent", "material"})
         if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
     for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)

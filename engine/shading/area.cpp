@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include "math/cubature.hpp"
 #include "math/sphere.hpp"
@@ -13,83 +14,119 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Adaptive integral over [0, 1]; the second dimension of the rule idles.
-double integrate(const std::function<double(double)>& f) {
+/// Adaptive integral from `low` to `high`; the second dimension of the rule idles.
+double integrate(const std::function<double(double)>& f, double low, double high, int cells) {
+    if (!(high > low)) return 0.0;
     CubatureOptions options;
     options.relativeError = 1e-8;
-    options.absoluteError = 1e-13;
-    options.cells = 12;
-    options.evaluations = 400000;
-    return integrateSquare([&f](double u, double) { return glm::dvec3(f(u)); }, options).integral.x;
+    options.absoluteError = 1e-30;
+    options.cells = cells;
+    options.evaluations = 100000;
+    const auto scaled = [&](double u, double) { return glm::dvec3(f(low + u * (high - low))); };
+    return (high - low) * integrateSquare(scaled, options).integral.x;
 }
 
-/// Integral of max(n.d, 0) sin(theta) over 0 <= theta <= limit <= pi, with n.d = axial cos(theta) + radial sin(theta).
-double polarIntegral(double axial, double radial, double limit) {
+/// Integral of max(n.d, 0) sin(theta) over from <= theta <= to, 0..pi, with n.d = axial cos(theta) + radial
+/// sin(theta).
+double polarIntegral(double axial, double radial, double from, double to) {
     const double middle = std::atan2(radial, axial);  // above the horizon: less than pi/2 from here
-    const auto antiderivative = [&](double t) {
-        return 0.5 * (axial * std::sin(t) * std::sin(t) + radial * (t - std::sin(t) * std::cos(t)));
+    const double low = std::max(from, middle - kPi / 2), high = std::min(to, middle + kPi / 2);
+    if (!(high > low)) return 0.0;
+    const double sum = low + high, difference = high - low;
+    return 0.5 * (axial * std::sin(sum) * std::sin(difference) +
+                  radial * (difference - std::cos(sum) * std::sin(difference)));
+}
+
+struct Chord {
+    double from, to;  ///< distances from the foot
+};
+
+/// Of a flat shape: half planes about the perpendicular to its plane, at azimuths from `low` to `high` about
+/// `facing` (frameAbout), each of which it meets in a chord.
+double flatFactor(const glm::dvec3& facing, double above, double low, double high,
+                  const std::function<Chord(double)>& chord, bool roundEnds = false) {
+    const glm::dmat3 frame = frameAbout(facing);
+    const auto slice = [&](double azimuth) {
+        const glm::dvec3 across = std::cos(azimuth) * frame[0] + std::sin(azimuth) * frame[1];
+        const Chord c = chord(azimuth);
+        return c.to > c.from
+                   ? polarIntegral(-facing.z, across.z, std::atan2(c.from, above), std::atan2(c.to, above))
+                   : 0.0;
     };
-    const double low = std::max(0.0, middle - kPi / 2), high = std::min(limit, middle + kPi / 2);
-    return high > low ? antiderivative(high) - antiderivative(low) : 0.0;
-}
-
-/// Of what is seen from the origin within `limit`(direction across) of a unit axis.
-double factorAbout(const glm::dvec3& axis, const std::function<double(const glm::dvec3&)>& limit) {
-    const glm::dmat3 frame = frameAbout(axis);
-    return 2.0 * integrate([&](double u) {
-               const glm::dvec3 across = std::cos(2.0 * kPi * u) * frame[0] + std::sin(2.0 * kPi * u) * frame[1];
-               return polarIntegral(axis.z, across.z, limit(across));
-           });
-}
-
-/// Of a flat shape: `edge` is the distance from `inner`, a place of it, to its edge in a unit direction in its plane.
-double flatFactor(const glm::dvec3& inner, const glm::dvec3& facing,
-                  const std::function<double(const glm::dvec3&)>& edge) {
-    const double distance = glm::length(inner);
-    const glm::dvec3 axis = inner / distance;
-    const double slant = glm::dot(axis, facing);
-    if (!(slant < 0.0)) return 0.0;
-    return factorAbout(axis, [&](const glm::dvec3& across) {
-        const glm::dvec3 inPlane = glm::normalize(across - axis * (glm::dot(across, facing) / slant));
-        const glm::dvec3 rim = inner + edge(inPlane) * inPlane;
-        return std::atan2(glm::dot(rim, across), glm::dot(rim, axis));
-    });
+    if (!roundEnds) return integrate(slice, low, high, 24) / kPi;
+    // Chords end in square roots where the half planes touch.
+    const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    const auto eased = [&](double t) { return slice(middle + half * std::sin(t)) * half * std::cos(t); };
+    return integrate(eased, -kPi / 2, kPi / 2, 48) / kPi;
 }
 
 }  // namespace
 
 double rectFactor(const glm::dvec3& center, const glm::dvec3& halfU, const glm::dvec3& halfV,
                   const glm::dvec3& facing) {
-    const double width = glm::length(halfU), height = glm::length(halfV);
-    const glm::dvec3 u = halfU / width, v = halfV / height;
-    // About its nearest place, where most of the light comes from when it is near.
-    const double x = std::clamp(-glm::dot(center, u), -0.99 * width, 0.99 * width);
-    const double y = std::clamp(-glm::dot(center, v), -0.99 * height, 0.99 * height);
-    return flatFactor(center + x * u + y * v, facing, [&](const glm::dvec3& direction) {
-        const auto side = [](double at, double step, double half) {
-            return step == 0.0 ? HUGE_VAL : (std::copysign(half, step) - at) / step;
-        };
-        return std::min(side(x, glm::dot(direction, u), width), side(y, glm::dot(direction, v), height));
-    });
+    const double above = -glm::dot(center, facing);
+    if (!(above > 0.0)) return 0.0;
+    const glm::dmat3 frame = frameAbout(facing);
+    const auto flat = [&](const glm::dvec3& p) {
+        return glm::dvec2(glm::dot(p, frame[0]), glm::dot(p, frame[1]));
+    };
+    const glm::dvec2 c = flat(center), u = flat(halfU), v = flat(halfV);
+    const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+    const double area = cross(u, v);
+    std::vector<double> breaks;
+    for (const glm::dvec2& corner : {c + u + v, c + u - v, c - u - v, c - u + v})
+        breaks.push_back(std::atan2(corner.y, corner.x));
+    std::sort(breaks.begin(), breaks.end());
+    breaks.push_back(breaks.front() + 2.0 * kPi);
+    const auto chord = [&](double azimuth) {
+        const glm::dvec2 d(std::cos(azimuth), std::sin(azimuth));
+        // t d = c + a u + b v with |a|, |b| <= 1
+        Chord result{0.0, HUGE_VAL};
+        for (const auto& [at, step] : {std::pair(-cross(c, v) / area, cross(d, v) / area),
+                                       std::pair(-cross(u, c) / area, cross(u, d) / area)}) {
+            if (step == 0.0) {
+                if (std::abs(at) > 1.0) return Chord{0.0, 0.0};
+                continue;
+            }
+            const double t1 = (-1.0 - at) / step, t2 = (1.0 - at) / step;
+            result.from = std::max(result.from, std::min(t1, t2));
+            result.to = std::min(result.to, std::max(t1, t2));
+        }
+        return result;
+    };
+    double sum = 0.0;
+    for (size_t i = 0; i + 1 < breaks.size(); ++i)
+        sum += flatFactor(facing, above, breaks[i], breaks[i + 1], chord);
+    return sum;
 }
 
 double diskFactor(const glm::dvec3& center, const glm::dvec3& facing, double radius) {
-    const glm::dvec3 toFoot = -(center - facing * glm::dot(center, facing));
-    const double off = glm::length(toFoot);
-    const glm::dvec3 shift = off > 0.0 ? toFoot * (std::min(off, 0.99 * radius) / off) : glm::dvec3(0.0);
-    const double gap = (radius - glm::length(shift)) * (radius + glm::length(shift));
-    return flatFactor(center + shift, facing, [&](const glm::dvec3& direction) {
-        const double along = glm::dot(shift, direction);
-        const double root = std::sqrt(along * along + gap);
-        return along > 0.0 ? gap / (root + along) : root - along;
-    });
+    const double above = -glm::dot(center, facing);
+    if (!(above > 0.0)) return 0.0;
+    const glm::dmat3 frame = frameAbout(facing);
+    const glm::dvec2 c(glm::dot(center, frame[0]), glm::dot(center, frame[1]));
+    const double off = glm::length(c), toCenter = std::atan2(c.y, c.x);
+    const auto chord = [&](double azimuth) {
+        const double along = off * std::cos(azimuth - toCenter), side = off * std::sin(azimuth - toCenter);
+        const double root = std::sqrt(std::max(0.0, (radius - side) * (radius + side)));
+        const double far = along + root;
+        return Chord{off > radius ? (off - radius) * (off + radius) / far : 0.0, far};
+    };
+    const double reach = off > radius ? std::asin(radius / off) : kPi;
+    return flatFactor(facing, above, toCenter - reach, toCenter + reach, chord, off > radius);
 }
 
 double sphereFactor(const glm::dvec3& center, double radius) {
     const double distance = glm::length(center);
     if (distance <= radius) return 1.0;
     const double limit = std::asin(radius / distance);
-    return factorAbout(center / distance, [limit](const glm::dvec3&) { return limit; });
+    const glm::dvec3 axis = center / distance;
+    const glm::dmat3 frame = frameAbout(axis);
+    const auto slice = [&](double azimuth) {
+        const glm::dvec3 across = std::cos(azimuth) * frame[0] + std::sin(azimuth) * frame[1];
+        return polarIntegral(axis.z, across.z, 0.0, limit);
+    };
+    return integrate(slice, 0.0, 2.0 * kPi, 64) / kPi;
 }
 
 double tubeFactor(const glm::dvec3& center, const glm::dvec3& halfAxis, double radius) {
@@ -103,26 +140,27 @@ double tubeFactor(const glm::dvec3& center, const glm::dvec3& halfAxis, double r
     // Off its end and within its cylinder, the nearer end hides the rest.
     if (distance <= radius) return sphereFactor(toAxis + std::clamp(0.0, z1, z2) * along, radius);
     const glm::dvec3 across = toAxis / distance, side = glm::cross(along, across);
-    // Half planes through the origin along the tube, at an angle about it; each meets it in a strip with round ends.
-    const double sum = integrate([&](double u) {
-        const double tau = kPi * (u - 0.5);
+    // Half planes through the origin along the tube, at an angle about it; each meets it in a strip with
+    // round ends.
+    const auto slice = [&](double tau) {
         const double angle = std::asin(radius / distance * std::sin(tau));
         const double x = distance * std::cos(angle), rho = radius * std::cos(tau);
         const double gap = std::sqrt((distance - radius) * (distance + radius));  // sqrt(x^2 - rho^2)
         const double low = std::atan2(z1, x) - std::atan2(rho, std::hypot(gap, z1));
         const double high = std::atan2(z2, x) + std::atan2(rho, std::hypot(gap, z2));
-        const double outwards = glm::dot(std::cos(angle) * across + std::sin(angle) * side, glm::dvec3(0, 0, 1));
+        const double outwards =
+            glm::dot(std::cos(angle) * across + std::sin(angle) * side, glm::dvec3(0, 0, 1));
         // Integral of max(outwards cos t + along.z sin t, 0) cos t from low to high.
-        const double center2 = std::atan2(along.z, outwards);
-        const double from = std::max(low, center2 - kPi / 2), to = std::min(high, center2 + kPi / 2);
+        const double middle2 = std::atan2(along.z, outwards);
+        const double from = std::max(low, middle2 - kPi / 2), to = std::min(high, middle2 + kPi / 2);
         if (!(to > from)) return 0.0;
         const auto antiderivative = [&](double t) {
             return 0.5 * (outwards * (t + std::sin(t) * std::cos(t)) + along.z * std::sin(t) * std::sin(t));
         };
-        return (antiderivative(to) - antiderivative(from)) * kPi * radius / distance * std::cos(tau) /
+        return (antiderivative(to) - antiderivative(from)) * radius / distance * std::cos(tau) /
                std::cos(angle);
-    });
-    return sum / kPi;
+    };
+    return integrate(slice, -kPi / 2, kPi / 2, 32) / kPi;
 }
 
 }  // namespace lobe

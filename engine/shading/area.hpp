@@ -5,9 +5,9 @@
 
 namespace lobe {
 
-/// Irradiance / (pi radiance), 0..1, at the origin, whose normal is z. Of each, by integration over directions: those of
-/// a half plane about an axis in closed form, their share below the horizon left out; the half planes by adaptive
-/// quadrature, to 1e-8. The GLSL integrates along the boundary.
+/// Irradiance / (pi radiance), 0..1, at the origin, whose normal is z. Of each, by integration over
+/// directions: those of a half plane about an axis in closed form, their share below the horizon left out;
+/// the half planes by adaptive quadrature, to 1e-8. The GLSL integrates along the boundary.
 ///
 /// `facing`, unit: the side of a rect or disk that emits. Lengths in any unit.
 double rectFactor(const glm::dvec3& center, const glm::dvec3& halfU, const glm::dvec3& halfV,

@@ -64,13 +64,18 @@ glm::dvec4 integrals(const BodyView& view) {
     options.evaluations = 200000;
     glm::dvec4 sum(0.0);
     for (int patch = 0; patch < view.patches(); ++patch) {
-        sum += glm::dvec4(integrateSquare([&](double u, double v) {
-                              return glm::dvec3(view.at(patch, u, v).solidAngle);
-                          }, options).integral.x, 0.0, 0.0, 0.0);
-        const glm::dvec3 d = integrateSquare([&](double u, double v) {
-                                 const BodySample s = view.at(patch, u, v);
-                                 return s.direction * s.solidAngle;
-                             }, options).integral;
+        sum += glm::dvec4(
+            integrateSquare([&](double u, double v) { return glm::dvec3(view.at(patch, u, v).solidAngle); },
+                            options)
+                .integral.x,
+            0.0, 0.0, 0.0);
+        const glm::dvec3 d = integrateSquare(
+                                 [&](double u, double v) {
+                                     const BodySample s = view.at(patch, u, v);
+                                     return s.direction * s.solidAngle;
+                                 },
+                                 options)
+                                 .integral;
         sum += glm::dvec4(0.0, d);
     }
     return sum;
@@ -78,8 +83,8 @@ glm::dvec4 integrals(const BodyView& view) {
 
 class AreaSample : public testing::TestWithParam<Kind> {};
 
-/// A grid's mean of the solid angles is the light's, and each point is on it. What the grid itself errs by is known from
-/// a grid of half its points a side.
+/// A grid's mean of the solid angles is the light's, and each point is on it. What the grid itself errs by is
+/// known from a grid of half its points a side.
 TEST_P(AreaSample, AddsUpToTheLight) {
     const Kind kind = GetParam();
     context().makeCurrent();
@@ -87,7 +92,12 @@ TEST_P(AreaSample, AddsUpToTheLight) {
         gl::ShaderLibrary(shaderDirectory()),
         {"sample",
          {"light/area_sample.glsl"},
-         {{"vec3", "center"}, {"vec3", "axis"}, {"vec3", "facing"}, {"float", "a"}, {"float", "b"}, {"vec2", "u"}},
+         {{"vec3", "center"},
+          {"vec3", "axis"},
+          {"vec3", "facing"},
+          {"float", "a"},
+          {"float", "b"},
+          {"vec2", "u"}},
          std::string("    AreaSample s = ") + kind.sample +
              ";\n    result[0] = vec4(s.direction, s.distance);\n    result[1].x = s.solid_angle;",
          2,
@@ -104,9 +114,10 @@ TEST_P(AreaSample, AddsUpToTheLight) {
                 for (const glm::dvec3& v : {light.position, light.axis, light.direction})
                     for (int c = 0; c < 3; ++c)
                         inputs.push_back(static_cast<float>(v[c]));
-                inputs.insert(inputs.end(),
-                              {static_cast<float>(light.width / 2), static_cast<float>(light.radius),
-                               (static_cast<float>(x) + 0.5f) / kSide, (static_cast<float>(y) + 0.5f) / kSide});
+                inputs.insert(
+                    inputs.end(),
+                    {static_cast<float>(light.width / 2), static_cast<float>(light.radius),
+                     (static_cast<float>(x) + 0.5f) / kSide, (static_cast<float>(y) + 0.5f) / kSide});
             }
         const harness::ResultTable table = evaluator.evaluate(inputs);
         glm::dvec4 mean(0.0), coarse(0.0);
@@ -115,7 +126,8 @@ TEST_P(AreaSample, AddsUpToTheLight) {
             const auto row = table.row(r);
             const glm::dvec3 d(row[0], row[1], row[2]);
             const double solidAngle = static_cast<double>(row[4]), distance = static_cast<double>(row[3]);
-            ASSERT_TRUE(std::isfinite(solidAngle) && solidAngle >= 0.0 && std::isfinite(distance) && distance >= 0.0);
+            ASSERT_TRUE(std::isfinite(solidAngle) && solidAngle >= 0.0 && std::isfinite(distance) &&
+                        distance >= 0.0);
             ASSERT_NEAR(glm::length(d), 1.0, 2e-6);
             mean += glm::dvec4(1.0, d) * solidAngle;
             squares += solidAngle * solidAngle;
@@ -139,13 +151,15 @@ TEST_P(AreaSample, AddsUpToTheLight) {
                     break;
                 default: {
                     const glm::dvec3 o = target - light.position;
-                    const double along = std::clamp(glm::dot(o, light.axis), -light.length / 2, light.length / 2);
+                    const double along =
+                        std::clamp(glm::dot(o, light.axis), -light.length / 2, light.length / 2);
                     miss = std::abs(glm::length(o - along * light.axis) - light.radius);
                 }
             }
             worstMiss = std::max(worstMiss, miss / (glm::length(light.position) + light.radius));
             if (const auto exact = view.distanceAlong(glm::normalize(d)); exact && *exact < distance * 10.0)
-                worstDistance = std::max(worstDistance, std::abs(distance - *exact) / glm::length(light.position));
+                worstDistance =
+                    std::max(worstDistance, std::abs(distance - *exact) / glm::length(light.position));
         }
         const double n = static_cast<double>(table.rows());
         mean /= n;
@@ -154,12 +168,12 @@ TEST_P(AreaSample, AddsUpToTheLight) {
         const double error = glm::length(mean - exact) / exact.x;
         if (error > worstSum) {
             worstSum = error;
-            std::printf("  case %d: error %.2e, solid angle %g of %g, distance %g, size %g %g\n", i, error, mean.x, exact.x,
-                        glm::length(light.position), light.width, light.radius);
+            std::printf("  case %d: error %.2e, solid angle %g of %g, distance %g, size %g %g\n", i, error,
+                        mean.x, exact.x, glm::length(light.position), light.width, light.radius);
         }
     }
-    std::printf("sums %.2e, off the light %.2e and distance %.2e of the distance, spread of weights %.2f\n", worstSum, worstMiss,
-                worstDistance, spread);
+    std::printf("sums %.2e, off the light %.2e and distance %.2e of the distance, spread of weights %.2f\n",
+                worstSum, worstMiss, worstDistance, spread);
     EXPECT_LT(worstSum, 2e-3);
     EXPECT_LT(worstMiss, 2e-3);
 }
