@@ -59,7 +59,8 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               inputs(*scene, plan, tables),
-              resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
+              rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
+              resources{*scene, plan, programs, targets, surfaces, lights, inputs, rays} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
@@ -80,6 +81,7 @@ struct Renderer::State {
         SurfaceDraws surfaces;
         LightBuffers lights;
         ScreenInputs inputs;
+        RayScene rays;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
         std::unique_ptr<Pass> accumulate, data;

@@ -71,6 +71,7 @@ struct FramePlan {
     bool clusteredPoint = false, clusteredSpot = false;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
+    bool rays = false;  ///< the scene's hierarchy of boxes is made for the rays of some program
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;

@@ -57,7 +57,14 @@ private:
     /// at 65535.
     void requireForwardLoop(const char* type, int global) const;
     void planShadows();
+    /// Why no light of a type casts shadows here; empty if some do.
+    std::string whyNoShadow(int casting) const;
+    /// Why rays cannot be had on this driver; empty if they can.
+    std::string whyNoRays() const;
     PlannedShadow shadowMethod(LightType type, int lights, int casting);
+    /// For programs that include shadow/rays.glsl; where any does, FramePlan::rays is to be set.
+    void rayDefines(Defines& defines) const;
+    void noteRays();
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
     /// Lights without range reach every pixel and stay outside the clusters.
