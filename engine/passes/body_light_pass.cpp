@@ -43,8 +43,8 @@ void BodyLightPass::run(const View& view) {
         const gl::Program& shader = program(variant);
         shader.use();
         int unit = resources().inputs.bind(shader, targets(), view, brdf);
-        unit = resources().bodies.bind(shader, unit, plan().areaPoints);
-        resources().rays.bind(shader, unit, view);
+        unit = resources().rays.bind(shader, unit, view);
+        resources().bodies.bind(shader, unit, plan().areaPoints);
         resources().inputs.setMask(&brdf);
         draw(variant, shader);
     }

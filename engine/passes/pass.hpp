@@ -22,8 +22,8 @@ struct FrameResources {
     SurfaceDraws& surfaces;
     LightBuffers& lights;
     BodyLights& bodies;
-    const RayScene& rays;
     ScreenInputs& inputs;
+    RayScene& rays;  ///< empty where the plan has none
 };
 
 class Pass {

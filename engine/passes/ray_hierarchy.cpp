@@ -17,9 +17,9 @@
 namespace lobe {
 namespace {
 
-/// Of the boxes, in the hierarchy's coordinates: what rounding moves a vertex that is projected along a ray from within
-/// the scene. v - o (|v - o| <= 2) is rounded, its share along the ray is multiplied by a rounded slope, and both
-/// are added: 12 roundings of 2^-24.
+/// Of the boxes, in the hierarchy's coordinates: what rounding moves a vertex that is projected along a ray
+/// from within the scene. v - o (|v - o| <= 2) is rounded, its share along the ray is multiplied by a rounded
+/// slope, and both are added: 12 roundings of 2^-24.
 constexpr float kPadding = 0x1p-20f;
 
 /// A pair where it stands, in the hierarchy's coordinates.
@@ -49,7 +49,8 @@ Box boxOf(const Pair& pair) {
 }
 
 Box boxOf(const RTCBounds& bounds) {
-    return {{bounds.lower_x, bounds.lower_y, bounds.lower_z}, {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
+    return {{bounds.lower_x, bounds.lower_y, bounds.lower_z},
+            {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
 }
 
 /// Of the tree that Embree builds: a leaf with pairs, or two children.
@@ -162,7 +163,9 @@ public:
     }
 
 private:
-    void push(std::initializer_list<float> texel) { result_.triangles.insert(result_.triangles.end(), texel); }
+    void push(std::initializer_list<float> texel) {
+        result_.triangles.insert(result_.triangles.end(), texel);
+    }
 
     void write(const Pair& pair, bool opaque) {
         for (const glm::vec3& v : pair.vertices)
@@ -193,7 +196,8 @@ private:
         return {glm::dvec2(slot.offset) + glm::dvec2(c * uv.x + s * uv.y, c * uv.y - s * uv.x)};
     }
 
-    /// Width, height, first texel in two parts that floats hold; wraps and filter. Width 0: alpha 1 everywhere.
+    /// Width, height, first texel in two parts that floats hold; wraps and filter. Width 0: alpha 1
+    /// everywhere.
     void pushTexture(const TextureSlot& slot) {
         const Texture* texture = slot ? &scene_.textures[static_cast<size_t>(slot.texture)] : nullptr;
         const Bitmap* image = texture != nullptr && texture->image >= 0
@@ -259,16 +263,26 @@ double localSize(const Instance& instance, const Primitive& primitive) {
     return std::max({sum.x, sum.y, sum.z});
 }
 
-/// A sum of 3 products and a place, each rounded once or twice in float, is off by up to 8 roundings of its largest
-/// part; that of the hierarchy's vertices, of the point in their frame, and of its distance to the plane of a triangle
-/// that spans the scene (12, as for kPadding), by up to 16 of the scene's size.
+Bounds castersBounds(const Scene& scene) {
+    Bounds bounds;
+    for (const Instance& instance : scene.instances) {
+        if (!instance.castsShadow) continue;
+        for (const glm::vec3& p : scene.primitives[static_cast<size_t>(instance.primitive)].positions)
+            bounds.add(glm::dvec3(instance.worldFromLocal * glm::dvec4(glm::dvec3(p), 1.0)));
+    }
+    return bounds;
+}
+
+/// A sum of 3 products and a place, each rounded once or twice in float, is off by up to 8 roundings of its
+/// largest part; that of the hierarchy's vertices, of the point in their frame, and of its distance to the
+/// plane of a triangle that spans the scene (12, as for kPadding), by up to 16 of the scene's size.
 constexpr double kDrawnRoundings = 8.0, kTracedRoundings = 16.0, kFloatRounding = 0x1p-24;
 
 }  // namespace
 
 RayHierarchy buildRayHierarchy(const Scene& scene, const RayHierarchyOptions& options) {
     RayHierarchy result;
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = castersBounds(scene);
     if (bounds.empty) return result;
     result.center = bounds.center();
     const glm::dvec3 half = (bounds.upper - bounds.lower) * 0.5;
@@ -284,6 +298,7 @@ RayHierarchy buildRayHierarchy(const Scene& scene, const RayHierarchyOptions& op
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
         drawn = std::max(drawn, localSize(instance, primitive));
+        if (!instance.castsShadow) continue;
         auto [pairs, isNew] = pairsOf.try_emplace(instance.primitive);
         if (isNew) pairs->second = pairTriangles(primitive);
         std::vector<glm::vec3> vertices;

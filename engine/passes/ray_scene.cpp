@@ -9,11 +9,11 @@
 namespace lobe {
 namespace {
 
-/// Position from depth in float: rounding of the depth's plane, of the pixel's ray and of their product, in lengths of
-/// the longest ray of the picture.
+/// Position from depth in float: rounding of the depth's plane, of the pixel's ray and of their product, in
+/// lengths of the longest ray of the picture.
 constexpr double kPositionRoundings = 16.0, kFloatRounding = 0x1p-24;
-/// Rasterisers round vertices to a step of this many pixels, which moves a surface by half of it; GL asks for 1/16,
-/// all drivers have 1/256.
+/// Rasterisers round vertices to a step of this many pixels, which moves a surface by half of it; GL asks for
+/// 1/16, all drivers have 1/256.
 constexpr double kSubpixel = 1.0 / 256.0;
 
 /// Length of the ray through the corner of the picture where it is longest, for 1 m along the view axis.
@@ -30,7 +30,8 @@ double longestRay(const View& view) {
 
 RayScene::RayScene(const Scene& scene, int maxTexels) {
     RayHierarchy hierarchy = buildRayHierarchy(scene);
-    const size_t most = std::max({hierarchy.nodes.size() / 4, hierarchy.triangles.size() / 4, hierarchy.texels.size()});
+    const size_t most =
+        std::max({hierarchy.nodes.size() / 4, hierarchy.triangles.size() / 4, hierarchy.texels.size()});
     if (most > static_cast<size_t>(maxTexels))
         throw ContextError(scene.file + ": shadows by rays need a buffer of " + std::to_string(most) +
                            " texels; expected at most " + std::to_string(maxTexels) +
@@ -45,10 +46,12 @@ RayScene::RayScene(const Scene& scene, int maxTexels) {
     hierarchy.nodes.resize(std::max<size_t>(hierarchy.nodes.size(), 8));
     hierarchy.triangles.resize(std::max<size_t>(hierarchy.triangles.size(), 4));
     hierarchy.texels.resize(std::max<size_t>(hierarchy.texels.size(), 1));
-    nodes_ = gl::makeTextureBuffer(GL_RGBA32UI, hierarchy.nodes.data(), hierarchy.nodes.size() * sizeof(uint32_t));
-    triangles_ =
-        gl::makeTextureBuffer(GL_RGBA32F, hierarchy.triangles.data(), hierarchy.triangles.size() * sizeof(float));
-    texels_ = gl::makeTextureBuffer(GL_R32F, hierarchy.texels.data(), hierarchy.texels.size() * sizeof(float));
+    nodes_ =
+        gl::makeTextureBuffer(GL_RGBA32UI, hierarchy.nodes.data(), hierarchy.nodes.size() * sizeof(uint32_t));
+    triangles_ = gl::makeTextureBuffer(GL_RGBA32F, hierarchy.triangles.data(),
+                                       hierarchy.triangles.size() * sizeof(float));
+    texels_ =
+        gl::makeTextureBuffer(GL_R32F, hierarchy.texels.data(), hierarchy.texels.size() * sizeof(float));
 }
 
 int RayScene::bind(const gl::Program& program, int firstUnit, const View& view) const {

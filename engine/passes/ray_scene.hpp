@@ -13,15 +13,16 @@ class RayScene {
 public:
     /// Empty: nothing to bind.
     RayScene() = default;
-    /// Builds and uploads the hierarchy. Throws InputError where it does not fit into memory, ContextError where it does
-    /// not fit into the driver's buffers of `maxTexels`.
+    /// Builds and uploads the hierarchy. Throws InputError where it does not fit into memory, ContextError
+    /// where it does not fit into the driver's buffers of `maxTexels`.
     RayScene(const Scene& scene, int maxTexels);
 
-    /// Binds texture units from `firstUnit` on and sets all uniforms of rays.glsl, if the program (in use) has them.
-    /// Returns the first free unit.
+    /// Binds texture units from `firstUnit` on and sets all uniforms of rays.glsl, if the program (in use)
+    /// has them. Returns the first free unit.
     int bind(const gl::Program& program, int firstUnit, const View& view) const;
 
-    /// How far a surface's drawn positions may be off it: m, and per metre from the eye. Ways start so far above it.
+    /// How far a surface's drawn positions may be off it: m, and per metre from the eye. Ways start so far
+    /// above it.
     glm::dvec2 positionError(const View& view) const;
 
     /// Main and graphics memory that it takes, bytes.

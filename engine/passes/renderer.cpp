@@ -59,9 +59,9 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               bodies(*scene, plan),
-              rays(plan.usesRays() ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               inputs(*scene, plan, tables),
-              resources{*scene, plan, programs, targets, surfaces, lights, bodies, rays, inputs} {
+              rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
+              resources{*scene, plan, programs, targets, surfaces, lights, bodies, inputs, rays} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
@@ -82,8 +82,8 @@ struct Renderer::State {
         SurfaceDraws surfaces;
         LightBuffers lights;
         BodyLights bodies;
-        RayScene rays;
         ScreenInputs inputs;
+        RayScene rays;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
         std::unique_ptr<Pass> accumulate, data;

@@ -85,6 +85,7 @@ struct FramePlan {
     std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
     int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
     int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
+    bool rays = false;          ///< the scene's hierarchy of boxes is made for the rays of some program
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
@@ -102,7 +103,6 @@ struct FramePlan {
 
     PlannedShadow shadowOf(LightType type) const;
     bool anyShadow() const;
-    bool usesRays() const;  ///< for shadows of some type of light
     const PlannedPass* pass(std::string_view name) const;
     const Channel* channel(std::string_view name) const;
     const PlannedBrdf* brdf(std::string_view name) const;
@@ -111,7 +111,11 @@ struct FramePlan {
 
 /// Most rays, and most points on lights without rays, that one draw's fragment may go through: llvmpipe ends
 /// loops at 65535 rounds in all, and a ray takes up to some hundred.
-inline constexpr int kRaysPerDraw = 64;
+/// Most rays, and most points without rays, that a fragment of one draw follows to lights with a body:
+/// llvmpipe ends loops at 65535 rounds in all, and few rays take more than 500.
+inline constexpr int kRaysPerDraw = 16;
+/// Of draws that cannot be split.
+inline constexpr int kRaysPerForwardDraw = 64;
 inline constexpr int kPointsPerDraw = 32768;
 
 /// "directional", "rect", ...

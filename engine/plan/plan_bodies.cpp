@@ -92,7 +92,7 @@ void Planner::planBodyLights() {
                           (plan_.samples > 1 ? "; other points in each jittered frame" : ""));
     if (!scene_.blended && deferred_) return;
     // One draw has to do with them all.
-    const int most = std::max(1, (soft ? kRaysPerDraw : kPointsPerDraw) / all);
+    const int most = std::max(1, (soft ? kRaysPerForwardDraw : kPointsPerDraw) / all);
     if (plan_.areaPoints <= most) return;
     plan_.areaPointsForward = most;
     plan_.notes.push_back("forward surfaces: " + plural(most, "point") + " on each light of " +
@@ -111,7 +111,7 @@ Planner::Defines Planner::bodyDefines(const std::string& model, LightType type) 
     if (shadowed) {
         defines["SHADOWS"] = "1";
         defines[mirrored || !hard ? "AREA_SHADOWS" : "AREA_HARD_SHADOWS"] = "1";
-        if (scene_.maskedCasters || scene_.blendedCasters) defines["RAY_ALPHA"] = "1";
+        rayDefines(defines);
     }
     if (mirrored) {
         defines["MIRRORED_LIGHTS"] = "1";

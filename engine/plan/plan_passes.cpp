@@ -56,6 +56,7 @@ void Planner::shadowDefines(Defines& defines, LightType type) const {
     defines["SHADOWS"] = "1";
     defines[kNames.at(type) + "_SHADOWS"] = "1";
     defines[kNames.at(type) + (method == PlannedShadow::rays ? "_SHADOW_RAYS" : "_SHADOW_MAPS")] = "1";
+    if (method == PlannedShadow::rays) rayDefines(defines);
 }
 
 Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const {

@@ -62,7 +62,16 @@ private:
     void requireForwardLoop(const char* type, int global) const;
     void planShadows();
     void planBodyShadows();
+    /// Why no light of a type casts shadows here; empty if some do.
+    std::string whyNoShadow(int casting) const;
+    /// Why rays cannot be had on this driver; empty if they can.
+    std::string whyNoRays() const;
+    /// Throws ContextError if they cannot.
+    void requireRays();
     PlannedShadow shadowMethod(LightType type, int lights, int casting);
+    /// For programs that include shadow/rays.glsl; where any does, FramePlan::rays is to be set.
+    void rayDefines(Defines& defines) const;
+    void noteRays();
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
     /// Lights without range reach every pixel and stay outside the clusters.

@@ -45,8 +45,8 @@ std::vector<float> castRays(const Scene& scene, const View& view, const std::vec
     std::vector<float> data(static_cast<size_t>(kWidth) * static_cast<size_t>(height) * 12);
     for (size_t i = 0; i < queries.size(); ++i) {
         const RayQuery& q = queries[i];
-        const float values[] = {q.position.x, q.position.y,  q.position.z,  q.normal.x,    q.normal.y, q.normal.z,
-                                q.direction.x, q.direction.y, q.direction.z, q.distance};
+        const float values[] = {q.position.x, q.position.y,  q.position.z,  q.normal.x,    q.normal.y,
+                                q.normal.z,   q.direction.x, q.direction.y, q.direction.z, q.distance};
         std::copy(std::begin(values), std::end(values), data.begin() + static_cast<ptrdiff_t>(12 * i));
     }
     const gl::TextureBuffer buffer =
@@ -118,8 +118,8 @@ Truth BruteForce::visibility(const glm::dvec3& origin, const glm::dvec3& directi
         const double sum = weights.x + weights.y + weights.z;
         const bool inside = glm::all(glm::greaterThan(weights, glm::dvec3(0.0))) ||
                             glm::all(glm::lessThan(weights, glm::dvec3(0.0)));
-        const double border = std::min(
-            {segmentDistance(p[0], p[1]), segmentDistance(p[1], p[2]), segmentDistance(p[2], p[0])});
+        const double border =
+            std::min({segmentDistance(p[0], p[1]), segmentDistance(p[1], p[2]), segmentDistance(p[2], p[0])});
         if (!inside && border > tolerance) continue;
         const double nearest = std::min({depths.x, depths.y, depths.z});
         const double farthest = std::max({depths.x, depths.y, depths.z});
@@ -139,8 +139,7 @@ Truth BruteForce::visibility(const glm::dvec3& origin, const glm::dvec3& directi
 glm::dvec3 startOf(const RayQuery& query, const View& view, const glm::dvec2& error) {
     const glm::dvec3 position(query.position), normal(query.normal);
     const double side = glm::dot(normal, glm::dvec3(query.direction)) < 0.0 ? -1.0 : 1.0;
-    return view.eye + position +
-           side * (error.x + error.y * glm::length(position)) * normal;
+    return view.eye + position + side * (error.x + error.y * glm::length(position)) * normal;
 }
 
 }  // namespace lobe::test

@@ -24,7 +24,8 @@ View viewFrom(const glm::dvec3& eye);
 /// ray_visibility of each; fails the test if a ray was not finished.
 std::vector<float> castRays(const Scene& scene, const View& view, const std::vector<RayQuery>& queries);
 
-/// What brute force says of a ray: within `tolerance` (m) of an edge or of the ends of its way it says nothing.
+/// What brute force says of a ray: within `tolerance` (m) of an edge or of the ends of its way it says
+/// nothing.
 enum class Truth { visible, blocked, tooClose };
 
 /// All triangles of the scene in double.

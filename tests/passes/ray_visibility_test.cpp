@@ -33,7 +33,8 @@ Primitive soup(int count, Pcg32& random) {
         const glm::dvec3 center = randomPoint(random) * (1.0 - size);
         const glm::dvec3 along = randomDirection(random) * size;
         const double width = i % 4 == 0 ? std::exp2(-24.0 * random.uniform()) : 1.0;
-        glm::dvec3 corners[] = {center - along, center + along, center + width * size * randomDirection(random)};
+        glm::dvec3 corners[] = {center - along, center + along,
+                                center + width * size * randomDirection(random)};
         if (i % 50 == 0) corners[2] = corners[i % 3];
         for (const glm::dvec3& corner : corners) {
             soup.indices.push_back(static_cast<uint32_t>(soup.positions.size()));
@@ -113,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Scales, RaySoups,
                                          Case{"planets", 1e12, glm::dvec3(0.0), 1.0},
                                          Case{"far_from_the_origin", 1.0, glm::dvec3(1e6, -2e6, 1e6), 3.0},
                                          Case{"seen_from_afar", 1.0, glm::dvec3(0.0), 1000.0}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
 
 /// A closed mesh with vertices that no float hits exactly.
 Scene closedSphere(int rings) {
@@ -124,10 +125,12 @@ Scene closedSphere(int rings) {
     for (int i = 0; i <= rings; ++i) {
         const auto row = static_cast<size_t>(i * (2 * rings + 1));
         for (int j = 0; j <= 2 * rings; ++j)
-            if (i == 0 || i == rings || j == 2 * rings) mesh.positions[row + static_cast<size_t>(j)] = mesh.positions[row];
+            if (i == 0 || i == rings || j == 2 * rings)
+                mesh.positions[row + static_cast<size_t>(j)] = mesh.positions[row];
     }
-    addInstance(scene, sphere, glm::rotate(glm::scale(glm::dmat4(1.0), glm::dvec3(1.3, 0.7, 2.1)), 0.4,
-                                           glm::dvec3(0.3, 0.5, 0.8)));
+    addInstance(
+        scene, sphere,
+        glm::rotate(glm::scale(glm::dmat4(1.0), glm::dvec3(1.3, 0.7, 2.1)), 0.4, glm::dvec3(0.3, 0.5, 0.8)));
     return scene;
 }
 
@@ -138,7 +141,9 @@ TEST(RayVisibility, ClosedMeshesHaveNoHoles) {
     const glm::dmat4& pose = scene.instances[0].worldFromLocal;
     Pcg32 random(12, 1);
     std::vector<RayQuery> queries;
-    const auto vertex = [&](uint32_t i) { return glm::dvec3(pose * glm::dvec4(glm::dvec3(mesh.positions[i]), 1.0)); };
+    const auto vertex = [&](uint32_t i) {
+        return glm::dvec3(pose * glm::dvec4(glm::dvec3(mesh.positions[i]), 1.0));
+    };
     const auto aim = [&](const glm::dvec3& from, const glm::dvec3& to) {
         RayQuery q;
         q.position = glm::vec3(from - view.eye);
@@ -170,10 +175,10 @@ Scene gridCube(int cells) {
             for (int i = 0; i < cells; ++i)
                 for (int j = 0; j < cells; ++j) {
                     const auto first = static_cast<uint32_t>(cube.positions.size());
-                    for (const auto [u, v] : {std::pair(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
+                    for (const glm::ivec2& corner : {glm::ivec2(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
                         glm::vec3 p(side);
-                        p[(axis + 1) % 3] = -1.0f + 2.0f * static_cast<float>(u) / static_cast<float>(cells);
-                        p[(axis + 2) % 3] = -1.0f + 2.0f * static_cast<float>(v) / static_cast<float>(cells);
+                        p[(axis + 1) % 3] = -1.0f + 2.0f * static_cast<float>(corner.x) / static_cast<float>(cells);
+                        p[(axis + 2) % 3] = -1.0f + 2.0f * static_cast<float>(corner.y) / static_cast<float>(cells);
                         cube.positions.push_back(p);
                         cube.normals.emplace_back(0, 0, 1);
                     }
@@ -229,7 +234,8 @@ TEST(RayVisibility, ConvexSurfacesDoNotShadowThemselves) {
         for (int n = 0; n < 8; ++n) {
             const double u = random.uniform(), v = random.uniform() * (1.0 - u);
             RayQuery q;
-            q.position = glm::vec3(corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]) - view.eye);
+            q.position = glm::vec3(corners[0] + u * (corners[1] - corners[0]) +
+                                   v * (corners[2] - corners[0]) - view.eye);
             q.normal = glm::vec3(normal);
             // Down to a thousandth of a radian above the surface.
             glm::dvec3 direction = randomDirection(random);
@@ -260,14 +266,18 @@ TEST(RayVisibility, DistancesEndTheWay) {
         return q;
     };
     const std::vector<std::pair<RayQuery, float>> cases = {
-        {query(kInfinity), 0.0f},     {query(3e38f), 0.0f},
-        {query(2.001f), 0.0f},        {query(1.999f), 1.0f},
-        {query(0.0f), 1.0f},          {query(-1.0f), 1.0f},
-        {query(nan), 1.0f},           {query(1e-38f), 1.0f},
+        {query(kInfinity), 0.0f},
+        {query(3e38f), 0.0f},
+        {query(2.001f), 0.0f},
+        {query(1.999f), 1.0f},
+        {query(0.0f), 1.0f},
+        {query(-1.0f), 1.0f},
+        {query(nan), 1.0f},
+        {query(1e-38f), 1.0f},
         {query(5.0f, {0, 0, 0}), 1.0f},
         {query(1.001f, {0, 0, -2}), 0.0f},  // in lengths of the direction
         {query(0.999f, {0, 0, -2}), 1.0f},
-        {query(5.0f, {0, 0, 1}), 0.0f},     // from behind the surface
+        {query(5.0f, {0, 0, 1}), 0.0f},  // from behind the surface
         {query(5.0f, {1e-30f, 1e-38f, -1}), 0.0f},
         {query(5.0f, {1, 0, 0}), 1.0f},
         {query(kInfinity, {0, -1, 0}), 1.0f}};
@@ -306,9 +316,12 @@ Scene fences() {
         m.baseColorTexture.offset = {-1.2f, 0.4f};
         const int quad = addQuad(scene, material, 1.0f);
         if (i == 4)
-            scene.primitives.back().colors = {{1, 1, 1, 1}, {1, 1, 1, 0.2f}, {1, 1, 1, 0.9f}, {1, 1, 1, 0.5f}};
-        addInstance(scene, quad, glm::translate(glm::dmat4(1.0), glm::dvec3(2.5 * (i % 3), 2.5 * (i / 3), -1.0)));
-        addInstance(scene, quad, glm::translate(glm::dmat4(1.0), glm::dvec3(2.5 * (i % 3) + 0.4, 2.5 * (i / 3), -2.0)));
+            scene.primitives.back().colors = {
+                {1, 1, 1, 1}, {1, 1, 1, 0.2f}, {1, 1, 1, 0.9f}, {1, 1, 1, 0.5f}};
+        addInstance(scene, quad,
+                    glm::translate(glm::dmat4(1.0), glm::dvec3(2.5 * (i % 3), 2.5 * (i / 3), -1.0)));
+        addInstance(scene, quad,
+                    glm::translate(glm::dmat4(1.0), glm::dvec3(2.5 * (i % 3) + 0.4, 2.5 * (i / 3), -2.0)));
     }
     return scene;
 }
@@ -321,7 +334,8 @@ TEST(RayVisibility, MasksCutHolesAndBlendedSurfacesDim) {
     std::vector<RayQuery> queries;
     for (int i = 0; i < 40000; ++i) {
         RayQuery q;
-        q.position = glm::vec3(glm::dvec3(-1.0 + 7.5 * random.uniform(), -1.0 + 7.5 * random.uniform(), 0.0) - view.eye);
+        q.position = glm::vec3(glm::dvec3(-1.0 + 7.5 * random.uniform(), -1.0 + 7.5 * random.uniform(), 0.0) -
+                               view.eye);
         q.direction = glm::vec3(0.2 * random.uniform() - 0.1, 0.2 * random.uniform() - 0.1, -1.0);
         q.normal = {0, 0, -1};
         queries.push_back(q);
@@ -335,7 +349,8 @@ TEST(RayVisibility, MasksCutHolesAndBlendedSurfacesDim) {
     for (size_t i = 0; i < queries.size(); ++i) {
         // Where the answer changes within what float rounds, it may be either.
         double low = 1.0, high = 0.0;
-        for (const glm::dvec2& shift : {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+        for (const glm::dvec2& shift :
+             {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
             from.position = startOf(queries[i], view, error) + glm::dvec3(shift * 4e-6, 0.0);
             const double expected = tracer.visibility(from, glm::dvec3(queries[i].direction), 1e9);
             low = std::min(low, expected);

@@ -10,9 +10,6 @@
 /// up to more points. 32-bit integers: no digit is lost however far it runs.
 #include "light/area_sample.glsl"
 #include "pass/area_reflected.glsl"
-#if defined(AREA_SHADOWS) || defined(AREA_HARD_SHADOWS)
-#include "shadow/rays.glsl"
-#endif
 
 // position, 1/range^2; radiance, shadow's slot; axis, a; facing, b
 const int AREA_TEXELS = 4;
@@ -39,8 +36,7 @@ AreaLight area_light(samplerBuffer lights, int i, LightReceiver r)
 float area_center_visible(AreaLight light, LightReceiver r)
 {
     float d = length(light.center);
-    float visible = ray_visibility(r.position, r.geometric_normal, light.center / max(d, 1e-30), light.slot < 0.0 ? 0.0 : d);
-    return light.slot < 0.0 ? 1.0 : visible;
+    return light_visibility_by_ray(light.slot, r, light.center / max(d, 1e-30), d);
 }
 #endif
 
@@ -81,9 +77,7 @@ void area_count(inout AreaTally tally, AreaSample s, AreaLight light, LightRecei
     tally.lit += f;
 #endif
 #ifdef AREA_SHADOWS
-    bool wanted = light.slot >= 0.0 && s.solid_angle > 0.0;
-    float visible = ray_visibility(r.position, r.geometric_normal, s.direction, wanted ? s.distance : 0.0);
-    f *= wanted ? visible : 1.0;
+    f *= light_visibility_by_ray(light.slot, r, s.direction, s.solid_angle > 0.0 ? s.distance : 0.0);
 #endif
     tally.seen += f;
 }
@@ -162,9 +156,7 @@ vec3 mirrored_lights(LightReceiver r, MODEL_PARAMS params)
 #endif
     vec3 shown = nearest.radiance * model_mirror(r.wo.z, dot(r.wo.xy, r.wo.xy), params);
 #ifdef AREA_SHADOWS
-    bool wanted = nearest.slot >= 0.0 && nearest.type >= 0;
-    float visible = ray_visibility(r.position, r.geometric_normal, direction, wanted ? nearest.distance : 0.0);
-    shown *= wanted ? visible : 1.0;
+    shown *= light_visibility_by_ray(nearest.slot, r, direction, nearest.type >= 0 ? nearest.distance : 0.0);
 #endif
     bool shows = r.wo.z > 0.0 && nearest.type >= 0 && (MIRRORED_TYPE < 0 || nearest.type == MIRRORED_TYPE);
     return shows ? shown : vec3(0.0);
@@ -181,6 +173,7 @@ AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     do
         area_count(tally, area_rect_sample(view, area_point(shift, point)), light, r, params);
     while (++point < uAreaPointsEnd);
+    light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
     // Other draws count the rest of what arrives; what is lit is that of all points.
     tally.lit = vec3(0.0);
@@ -189,6 +182,7 @@ AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
         AreaSample s = area_rect_sample(view, area_point(shift, point));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
+    light_loop_ended(point >= uAreaPointsAll);
 #endif
     return tally;
 }
@@ -217,6 +211,7 @@ vec3 rect_lights(LightReceiver r, MODEL_PARAMS params)
     do
         sum += rect_light(i, r, params);
     while (++i < uRectEnd);
+    light_loop_ended(i >= uRectEnd);
     return sum;
 }
 #endif
@@ -232,6 +227,7 @@ AreaTally disk_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     do
         area_count(tally, area_disk_sample(view, area_point(shift, point)), light, r, params);
     while (++point < uAreaPointsEnd);
+    light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
     // Other draws count the rest of what arrives; what is lit is that of all points.
     tally.lit = vec3(0.0);
@@ -240,6 +236,7 @@ AreaTally disk_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
         AreaSample s = area_disk_sample(view, area_point(shift, point));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
+    light_loop_ended(point >= uAreaPointsAll);
 #endif
     return tally;
 }
@@ -268,6 +265,7 @@ vec3 disk_lights(LightReceiver r, MODEL_PARAMS params)
     do
         sum += disk_light(i, r, params);
     while (++i < uDiskEnd);
+    light_loop_ended(i >= uDiskEnd);
     return sum;
 }
 #endif
@@ -283,6 +281,7 @@ AreaTally sphere_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS pa
     do
         area_count(tally, area_sphere_sample(view, area_point(shift, point)), light, r, params);
     while (++point < uAreaPointsEnd);
+    light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
     // Other draws count the rest of what arrives; what is lit is that of all points.
     tally.lit = vec3(0.0);
@@ -291,6 +290,7 @@ AreaTally sphere_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS pa
         AreaSample s = area_sphere_sample(view, area_point(shift, point));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
+    light_loop_ended(point >= uAreaPointsAll);
 #endif
     return tally;
 }
@@ -319,6 +319,7 @@ vec3 sphere_lights(LightReceiver r, MODEL_PARAMS params)
     do
         sum += sphere_light(i, r, params);
     while (++i < uSphereEnd);
+    light_loop_ended(i >= uSphereEnd);
     return sum;
 }
 #endif
@@ -334,6 +335,7 @@ AreaTally tube_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     do
         area_count(tally, area_tube_sample(view, area_point(shift, point)), light, r, params);
     while (++point < uAreaPointsEnd);
+    light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
     // Other draws count the rest of what arrives; what is lit is that of all points.
     tally.lit = vec3(0.0);
@@ -342,6 +344,7 @@ AreaTally tube_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
         AreaSample s = area_tube_sample(view, area_point(shift, point));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
+    light_loop_ended(point >= uAreaPointsAll);
 #endif
     return tally;
 }
@@ -370,6 +373,7 @@ vec3 tube_lights(LightReceiver r, MODEL_PARAMS params)
     do
         sum += tube_light(i, r, params);
     while (++i < uTubeEnd);
+    light_loop_ended(i >= uTubeEnd);
     return sum;
 }
 #endif

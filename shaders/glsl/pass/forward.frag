@@ -72,8 +72,12 @@ void main()
     LightReceiver receiver = light_receiver(vPosition, ray, dot(vPosition, uForward), frame);
 #ifdef SHADOWS
     receiver.geometric_normal = surface_geometric_normal();
+    receiver.behind = 1.0 - alpha;
 #endif
     radiance += all_lights(receiver, params);
+    float marked = light_alpha(alpha);
+#else
+    float marked = alpha;
 #endif
 #ifdef CONTRIBUTIONS
     vec4 dim = vec4(0.0, 0.0, 0.0, alpha);
@@ -104,9 +108,9 @@ void main()
 #ifdef OUT_CONTRIBUTION_TUBE
     oTube = dim;
 #endif
-    oTransparent = vec4(radiance * alpha, alpha);
+    oTransparent = vec4(radiance * alpha, marked);
     oCoverage = dim;
 #else
-    oRadiance = vec4(radiance * alpha, alpha);
+    oRadiance = vec4(radiance * alpha, marked);
 #endif
 }
