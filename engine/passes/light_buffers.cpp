@@ -125,7 +125,7 @@ void LightBuffers::updateClusters(const View& view) {
     indices_ = gl::makeTextureBuffer(GL_R32UI, indices.data(), indices.size() * sizeof(uint32_t));
 }
 
-void LightBuffers::bind(const gl::Program& program, int unit) const {
+int LightBuffers::bind(const gl::Program& program, int unit) const {
     const auto attach = [&](const std::string& uniform, const gl::TextureBuffer& buffer) {
         if (!buffer.texture || program.uniform(uniform) < 0) return;
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -142,6 +142,7 @@ void LightBuffers::bind(const gl::Program& program, int unit) const {
     attach("uClusterIndices", indices_);
     program.set("uClusterZ", sliceFactors_);
     program.set("uClusterTiles", clusterTiles_);
+    return unit;
 }
 
 }  // namespace lobe

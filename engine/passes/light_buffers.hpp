@@ -15,6 +15,8 @@ namespace lobe {
 
 /// Most lights that one loop of a shader runs over: llvmpipe ends loops at 65535 iterations without a word.
 inline constexpr int kLightsPerDraw = 32768;
+/// The same where each casts rays: 8,000 iterations a ray, of which few need more than 500.
+inline constexpr int kLightsPerDrawOfRays = 8;
 
 class LightBuffers {
 public:
@@ -24,8 +26,8 @@ public:
     void update(const View& view);
 
     /// Texture units from `firstUnit` on, and every light uniform that the program uses, for all lights of
-    /// its types.
-    void bind(const gl::Program& program, int firstUnit) const;
+    /// its types. Returns the first free unit.
+    int bind(const gl::Program& program, int firstUnit) const;
 
     int count(LightType type) const { return static_cast<int>(lights_[static_cast<size_t>(type)].size()); }
     /// Lights of the type that are outside the clusters: the first ones of its buffer.

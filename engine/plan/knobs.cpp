@@ -49,10 +49,11 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
 /// Why no stored normal is read: those of punctual lights are the only ones that show.
 std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
     if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
-    if (scene.directionalLights + scene.pointLights + scene.spotLights == 0)
-        return "no light reads the normal";
-    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(),
-                                   [](const BrdfFacts& facts) { return scattersLight(facts.name); });
+    const bool punctual = scene.directionalLights + scene.pointLights + scene.spotLights > 0;
+    if (!punctual && scene.bodyLights.empty()) return "no light reads the normal";
+    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(), [&](const BrdfFacts& facts) {
+        return scattersLight(facts.name) || (!scene.bodyLights.empty() && facts.name != kUnlit);
+    });
     return shows ? "" : "no opaque surface shows punctual light";
 }
 
@@ -111,7 +112,15 @@ std::string withoutBodies(const SceneSummary& scene, const Quality&) {
 /// Why no point on a light is ever drawn.
 std::string withoutLightSamples(const SceneSummary& scene, const Quality& quality) {
     if (std::string reason = withoutBodies(scene, quality); !reason.empty()) return reason;
-    return {};
+    const auto scatters = [](const SurfaceFeatures& surface) { return scattersLight(surface.brdf); };
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), scatters))
+        return "no surface scatters light of a body";
+    const bool closed = std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [](const auto& surface) {
+        return !scattersLight(surface.brdf) || hasClosedForm(surface.brdf);
+    });
+    return closed && quality.areaLights == AreaLights::analytic && quality.shadows != Shadows::soft
+               ? "lights are in closed form and no shadow is soft"
+               : "";
 }
 
 std::string withoutAirlight(const SceneSummary& scene, const Quality&) {

@@ -22,12 +22,6 @@ void Planner::requireForwardLoop(const char* type, int global) const {
 }
 
 void Planner::planUndrawn() {
-    static const std::map<LightType, const char*> kNames{{LightType::rect, "rect"},
-                                                         {LightType::disk, "disk"},
-                                                         {LightType::sphere, "sphere"},
-                                                         {LightType::tube, "tube"}};
-    for (const auto& [type, count] : scene_.bodyLights)
-        leaveOut("light", kNames.at(type), plural(count, "light") + "; not drawn yet");
     if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
     if (scene_.fog) leaveOut("pass", "fog", "not drawn yet");
 }
@@ -88,6 +82,7 @@ void Planner::planLights() {
     requireForwardLoop("directional", scene_.directionalLights);
     requireForwardLoop("point", plan_.globalPointLights);
     requireForwardLoop("spot", plan_.globalSpotLights);
+    planBodyLights();
     if (!plan_.clusteredPoint && !plan_.clusteredSpot)
         leaveOut("buffer", "light clusters", "no light type has enough ranged lights for lists to pay");
 }
