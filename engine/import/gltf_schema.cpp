@@ -12,6 +12,8 @@ constexpr double kPi = 3.14159265358979323846;
 /// Sizes of lights: their squares and the squares' inverses are floats.
 constexpr double kSmallestSize = 1e-9;
 constexpr double kLargestSize = 1e9;
+/// Of scattering: beyond, almost all light goes on straight, in a peak that floats do not resolve.
+constexpr double kLargestAnisotropy = 0.999;
 ValueRule sizeInMetres() {
     return number(kSmallestSize, kLargestSize);
 }
@@ -163,7 +165,9 @@ const ObjectSchema& scene() {
     static const ObjectSchema fog{{optional("extinction", arrayOf(number(0.0, kLargest), 3, 3)),
                                    optional("radiance", arrayOf(number(0.0, kLargest), 3, 3)),
                                    optional("heightFalloff", number(0.0, kLargest)),
-                                   optional("height", number())}};
+                                   optional("height", number()),
+                                   optional("scattering", arrayOf(number(0.0, kLargest), 3, 3)),
+                                   optional("anisotropy", number(-kLargestAnisotropy, kLargestAnisotropy))}};
     static const ObjectSchema extensions{{optional("LOBE_ambient", objectOf(ambient)),
                                           optional("LOBE_environment", objectOf(environment)),
                                           optional("LOBE_fog", objectOf(fog))}};

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <string>
 
 #include "passes/light_buffers.hpp"
 #include "passes/program_cache.hpp"
@@ -20,6 +22,7 @@ struct FrameResources {
     SurfaceDraws& surfaces;
     LightBuffers& lights;
     ScreenInputs& inputs;
+    std::set<std::string> remarks;  ///< what a picture lacks of what the plan says; for people
 };
 
 class Pass {

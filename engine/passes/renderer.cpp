@@ -59,7 +59,7 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               inputs(*scene, plan, tables),
-              resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
+              resources{*scene, plan, programs, targets, surfaces, lights, inputs, {}} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
@@ -179,6 +179,7 @@ Picture Renderer::render(const Camera& camera) {
         run(*current.data, center);
         mark("aov");
     }
+    current.resources.remarks.clear();
     if (current.accumulate) state_->clearAccumulated();
     for (int sample = 0; sample < current.plan.samples; ++sample) {
         const View view = state_->adapted(
@@ -201,6 +202,7 @@ Picture Renderer::render(const Camera& camera) {
     }
     Picture picture;
     picture.image = readPicture(current.plan, current.targets, center, options.aovs);
+    picture.warnings.assign(current.resources.remarks.begin(), current.resources.remarks.end());
     mark("readback");
     gl::checkErrors("rendering");
     if (options.timePasses)

@@ -224,7 +224,7 @@ void Planner::planParameters() {
 
 void Planner::planRadiance() {
     const bool half = plan_.quality.radianceBits == 16;
-    const std::string format = half ? "RGBA16F" : "RGBA32F";
+    const std::string format = radianceFormat();
     addChannel("radiance", format, "radiance and coverage",
                half ? "radiance_bits asks for 16 bits: each light adds an error of up to 1e-3; from 65504 on "
                       "radiance is infinite"
@@ -238,7 +238,9 @@ void Planner::planRadiance() {
         leaveOut("texture", "occlusion",
                  scene_.ambient ? "no material has one" : "there is no ambient light for it to act on");
     if (contributions_) {
-        plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot", "transparent"};
+        plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot"};
+        if (scene_.fog) plan_.contributionTargets.emplace_back("fog");
+        plan_.contributionTargets.emplace_back("transparent");
         for (const std::string& name : plan_.contributionTargets)
             addChannel("contribution." + name, format, "radiance from " + name, "asked for as AOV");
         if (gbufferRadiance_) {

@@ -26,7 +26,6 @@ void Planner::planUndrawn() {
     for (const auto& [type, count] : scene_.bodyLights)
         leaveOut("light", kNames.at(type), plural(count, "light") + "; not drawn yet");
     if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
-    if (scene_.fog) leaveOut("pass", "fog", "not drawn yet");
 }
 
 void Planner::planLights() {

@@ -82,9 +82,9 @@ PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& r
     std::deque<Layer> layers;
     const auto addFog = [&](double share, double distance) {
         if (!scene_.fog) return glm::dvec3(share);
-        const glm::dvec3 clear = fogTransmittance(*scene_.fog, ray.origin.y, direction.y, distance);
-        truth.radiance[static_cast<size_t>(Source::fog)] += share * (1.0 - clear) * scene_.fog->radiance;
-        return share * clear;
+        const FogOnRay fog = fogOnRay(scene_, ray.origin, direction, distance);
+        truth.radiance[static_cast<size_t>(Source::fog)] += share * fog.radiance;
+        return share * fog.transmittance;
     };
     std::vector<SurfacePoint> surfaces;
     tracer_.surfacesAlong(ray, &differentials_, surfaces);
