@@ -109,11 +109,14 @@ const ObjectSchema& material() {
     static const ObjectSchema normalTexture = textureInfoWith(optional("scale", number()));
     static const ObjectSchema occlusionTexture = textureInfoWith(optional("strength", number(0.0, 1.0)));
     static const ObjectSchema emissiveStrength{{optional("emissiveStrength", number(0.0, kLargest))}};
+    static const ObjectSchema transmission{{optional("transmissionFactor", number(0.0, 1.0)),
+                                            optional("transmissionTexture", objectOf(textureInfo()))}};
     static const ObjectSchema brdf{{required("model", text())}};
     static const ObjectSchema empty{};
     static const ObjectSchema extensions{
         {optional("KHR_materials_unlit", objectOf(empty)),
          optional("KHR_materials_emissive_strength", objectOf(emissiveStrength)),
+         optional("KHR_materials_transmission", objectOf(transmission)),
          optional("LOBE_materials_brdf", objectOf(brdf))}};
     static const ObjectSchema schema{
         {optional("name", text()), optional("pbrMetallicRoughness", objectOf(metallicRoughness)),
