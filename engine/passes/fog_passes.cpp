@@ -53,6 +53,7 @@ void FogPass::run(const View& view) {
     }
     resources().inputs.clearMask();
     glDisable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ZERO);  // several targets may not even be set to blend with two outputs
 }
 
 void AirlightPass::prepare() {

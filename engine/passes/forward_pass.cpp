@@ -133,6 +133,7 @@ void ForwardPass::run(const View& view) {
         drawSorted(view);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ZERO);  // several targets may not even be set to blend with two outputs
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
 }

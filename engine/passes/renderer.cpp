@@ -61,6 +61,7 @@ struct Renderer::State {
               inputs(*scene, plan, tables),
               resources{*scene, plan, programs, targets, surfaces, lights, inputs, {}} {
             for (const PlannedPass& planned : plan.passes) {
+                if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
                 pass->prepare();

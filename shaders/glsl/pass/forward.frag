@@ -59,12 +59,6 @@ void main()
     if (surface_alpha() < uAlphaCutoff)
         discard;
 #endif
-#ifdef PEELED
-    uvec2 key = peel_key();
-    uvec2 layer = peel_layer();
-    if (!(uPeelRest == 1 ? peel_in_front(key, layer) : key == layer))
-        discard;
-#endif
 #ifdef ALPHA_BLEND
     alpha = clamp(surface_alpha(), 0.0, 1.0);
 #endif
@@ -123,5 +117,12 @@ void main()
 #endif
 #ifdef COLORED_TRANSMITTANCE
     oThrough = vec4(through, 1.0 - alpha);
+#endif
+#ifdef PEELED
+    // Last, as derivatives end where a fragment does; the depth test has kept out almost all others.
+    uvec2 key = peel_key();
+    uvec2 layer = peel_layer();
+    if (!(uPeelRest == 1 ? peel_in_front(key, layer) : key == layer))
+        discard;
 #endif
 }
