@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <string>
 
 #include "passes/body_lights.hpp"
 #include "passes/light_buffers.hpp"
@@ -24,6 +26,7 @@ struct FrameResources {
     BodyLights& bodies;
     ScreenInputs& inputs;
     RayScene& rays;  ///< empty where the plan has none
+    std::set<std::string> remarks;  ///< what a picture lacks of what the plan says; for people
 };
 
 class Pass {

@@ -61,8 +61,9 @@ struct Renderer::State {
               bodies(*scene, plan),
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
-              resources{*scene, plan, programs, targets, surfaces, lights, bodies, inputs, rays} {
+              resources{*scene, plan, programs, targets, surfaces, lights, bodies, inputs, rays, {}} {
             for (const PlannedPass& planned : plan.passes) {
+                if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
                 pass->prepare();
@@ -183,6 +184,7 @@ Picture Renderer::render(const Camera& camera) {
         run(*current.data, center);
         mark("aov");
     }
+    current.resources.remarks.clear();
     if (current.accumulate) state_->clearAccumulated();
     for (int sample = 0; sample < current.plan.samples; ++sample) {
         const View view = state_->adapted(
@@ -206,6 +208,7 @@ Picture Renderer::render(const Camera& camera) {
     }
     Picture picture;
     picture.image = readPicture(current.plan, current.targets, center, options.aovs);
+    picture.warnings.assign(current.resources.remarks.begin(), current.resources.remarks.end());
     mark("readback");
     gl::checkErrors("rendering");
     if (options.timePasses)

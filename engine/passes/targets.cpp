@@ -25,7 +25,8 @@ GLenum formatOf(const std::string& name) {
 
 Targets::Targets(const FramePlan& plan, int width, int height) : width_(width), height_(height) {
     for (const Channel& channel : plan.channels) {
-        if (channel.name == "accumulated") continue;  // one for each picture that is accumulated, made below
+        // Those that are accumulated have one each, made below; layers belong to their pass.
+        if (channel.name == "accumulated" || channel.name.starts_with("layer")) continue;
         textures_.emplace(channel.name, gl::makeTarget(formatOf(channel.format), width, height));
     }
     std::vector<std::string> pictures;

@@ -24,6 +24,7 @@ int bytesOfFormat(const std::string& format) {
                                                      {"R8UI", 1},
                                                      {"R16UI", 2},
                                                      {"R32UI", 4},
+                                                     {"RG32UI", 8},
                                                      {"DEPTH_COMPONENT24", 4},
                                                      {"DEPTH_COMPONENT32F", 4},
                                                      {"DEPTH24_STENCIL8", 4},

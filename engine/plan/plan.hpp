@@ -89,6 +89,8 @@ struct FramePlan {
     int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
     int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
     bool rays = false;          ///< the scene's hierarchy of boxes is made for the rays of some program
+    int airlightNodes = 0;  ///< of each lamp's airlight; 0: there is none
+    int mostLayers = 0;     ///< of blended surfaces that are peeled; 0: they are sorted by object
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;

@@ -226,30 +226,9 @@ void Planner::planParameters() {
     }
 }
 
-/// The forward pass writes to all contributions, and coverage, at once. Where they are too many for the
-/// driver, those of kinds of light that the scene lacks go.
-void Planner::requireContributionTargets() {
-    if (deferred_ && !scene_.blended) return;
-    const auto most = static_cast<size_t>(capabilities_.maxColorAttachments) - 1;
-    auto& targets = plan_.contributionTargets;
-    const std::pair<const char*, int> lacking[] = {{"directional", scene_.directionalLights},
-                                                   {"point", scene_.pointLights},
-                                                   {"spot", scene_.spotLights}};
-    for (const auto& [name, count] : lacking) {
-        if (targets.size() <= most || count > 0) continue;
-        targets.erase(std::find(targets.begin(), targets.end(), name));
-        leaveOut("channel", std::string("contribution.") + name,
-                 "the scene has none, and the driver has too few colour attachments for all");
-    }
-    if (targets.size() > most)
-        throw ContextError("contributions: " + std::to_string(targets.size()) +
-                           " kinds of light over blended or forward surfaces; expected at most " +
-                           std::to_string(most) + ", what the driver can draw to at once");
-}
-
 void Planner::planRadiance() {
     const bool half = plan_.quality.radianceBits == 16;
-    const std::string format = half ? "RGBA16F" : "RGBA32F";
+    const std::string format = radianceFormat();
     addChannel("radiance", format, "radiance and coverage",
                half ? "radiance_bits asks for 16 bits: each light adds an error of up to 1e-3; from 65504 on "
                       "radiance is infinite"
@@ -266,8 +245,8 @@ void Planner::planRadiance() {
         plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot"};
         for (const auto& [type, count] : scene_.bodyLights)
             plan_.contributionTargets.emplace_back(nameOf(type));
+        if (scene_.fog) plan_.contributionTargets.emplace_back("fog");
         plan_.contributionTargets.emplace_back("transparent");
-        requireContributionTargets();
         for (const std::string& name : plan_.contributionTargets)
             addChannel("contribution." + name, format, "radiance from " + name, "asked for as AOV");
         if (gbufferRadiance_) {

@@ -23,7 +23,6 @@ void Planner::requireForwardLoop(const char* type, int global) const {
 
 void Planner::planUndrawn() {
     if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
-    if (scene_.fog) leaveOut("pass", "fog", "not drawn yet");
 }
 
 /// With f_r cos(theta) <= P, a light of intensity I adds at most I P / d^2 at distance d. Each may take its

@@ -6,17 +6,12 @@
 
 namespace lobe {
 
-namespace {
-
-/// "aov.depth" as a define can be called: "AOV_DEPTH".
 std::string defineName(std::string name) {
     std::replace(name.begin(), name.end(), '.', '_');
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return name;
 }
-
-}  // namespace
 
 Planner::Defines Planner::commonDefines() const {
     Defines defines;
@@ -70,6 +65,7 @@ Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const 
     flag("NORMAL_MAP", features.texture("normal") != nullptr);
     flag("ALPHA_MASK", features.alphaMode == AlphaMode::mask);
     flag("ALPHA_BLEND", features.alphaMode == AlphaMode::blend);
+    flag("TRANSMISSION", features.transmits);
     flag("EMISSION", features.emission);
     flag("TANGENTS", features.texture("normal") != nullptr ||
                          (features.brdf != kUnlit && requireBrdf(features.brdf).traits.usesTangent));
@@ -88,6 +84,8 @@ void Planner::planPasses() {
     planLightPass(LightType::point, scene_.pointLights);
     planLightPass(LightType::spot, scene_.spotLights);
     planBodyPasses();
+    planFog();
+    planAirlight();
     planForward();
     planAccumulation();
     planDataAovs();
@@ -102,7 +100,7 @@ void Planner::planGbufferPass() {
     pass.writes.insert(pass.writes.begin(), "depth");
     for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
         const SurfaceFeatures& features = plan_.surfaces[i];
-        if (features.alphaMode == AlphaMode::blend) continue;
+        if (features.blended()) continue;
         Defines defines = surfaceDefines(features);
         defines.merge(commonDefines());
         defines["GBUFFER"] = "1";
@@ -172,42 +170,6 @@ void Planner::planLightPass(LightType type, int count) {
         }
     }
     if (pass.variants.empty()) return leaveOut("pass", name, "no opaque surface shows it");
-    plan_.passes.push_back(pass);
-}
-
-void Planner::planForward() {
-    if (!scene_.blended && deferred_) return leaveOut("pass", "forward", "no blended surface");
-    PlannedPass pass{"forward", "pass/forward.frag", {}, {"depth"}, {"radiance"}, ""};
-    if (contributions_) {
-        pass.writes.clear();
-        for (const std::string& name : plan_.contributionTargets)
-            pass.writes.push_back("contribution." + name);
-        pass.writes.emplace_back("radiance");  // coverage only
-    }
-    for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
-        const SurfaceFeatures& features = plan_.surfaces[i];
-        if (deferred_ && features.alphaMode != AlphaMode::blend) continue;
-        Defines defines = surfaceDefines(features);
-        if (scattersLight(features.brdf)) {
-            const std::pair<LightType, int> types[] = {{LightType::directional, scene_.directionalLights},
-                                                       {LightType::point, scene_.pointLights},
-                                                       {LightType::spot, scene_.spotLights}};
-            for (const auto& [type, lights] : types) {
-                if (lights == 0) continue;
-                lightDefines(defines, type);
-                shadowDefines(defines, type);
-            }
-        }
-        defines.merge(forwardBodyDefines(features.brdf));
-        for (size_t target = 0; contributions_ && target < plan_.contributionTargets.size(); ++target)
-            defines["OUT_" + defineName("contribution." + plan_.contributionTargets[target])] =
-                std::to_string(target);
-        if (contributions_) defines["CONTRIBUTIONS"] = std::to_string(plan_.contributionTargets.size());
-        pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
-    }
-    pass.reason = deferred_ ? plural(static_cast<int>(scene_.blendedInstances), "blended instance") +
-                                  ", drawn back to front"
-                            : "forward shading is asked for";
     plan_.passes.push_back(pass);
 }
 

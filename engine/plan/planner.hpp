@@ -21,6 +21,9 @@ bool hasClosedForm(const std::string& model);
 /// Bytes a pixel of a format, by its OpenGL name.
 int bytesOfFormat(const std::string& format);
 
+/// "aov.depth" as a define can be called: "AOV_DEPTH".
+std::string defineName(std::string name);
+
 class Planner {
 public:
     using Defines = std::map<std::string, std::string>;
@@ -55,7 +58,6 @@ private:
     void planMaterialId();
     void planParameters();
     void planRadiance();
-    void requireContributionTargets();
     void requireFit(const char* type, int count, int texelsEach) const;
     /// One loop of a fragment shader runs over all lights that reach everything; software drivers end loops
     /// at 65535.
@@ -98,7 +100,18 @@ private:
     /// Without variants.
     PlannedPass lightPass(const std::string& name, const std::string& kind, const std::string& reason) const;
     void planLightPass(LightType type, int count);
+    void fogDefines(Defines& defines) const;
+    void airlightDefines(Defines& defines, LightType type) const;
+    void requireAirlightLoop(const char* type, int count) const;
+    void addFogVariants(PlannedPass& pass, const Defines& defines) const;
+    void planFog();
+    void planAirlight();
+    void forwardDefines(Defines& defines, const SurfaceFeatures& features) const;
+    std::vector<std::string> forwardTargets() const;
     void planForward();
+    void planDim();
+    void planPeel(bool peeled);
+    std::string radianceFormat() const { return plan_.quality.radianceBits == 16 ? "RGBA16F" : "RGBA32F"; }
     void planAccumulation();
     void planDataAovs();
     void planVertexData();

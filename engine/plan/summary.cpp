@@ -131,6 +131,10 @@ void countLights(const Scene& scene, SceneSummary& summary) {
     }
     summary.environment = scene.environment.has_value();
     summary.fog = scene.fog.has_value();
+    summary.fogFallsOff = scene.fog && scene.fog->heightFalloff > 0.0;
+    summary.fogGrey = scene.fog && scene.fog->extinction == glm::dvec3(scene.fog->extinction.x) &&
+                      scene.fog->scattering == glm::dvec3(scene.fog->scattering.x);
+    summary.fogScatters = scene.fog && scene.fog->scattering != glm::dvec3(0.0);
     summary.ambient = scene.ambientRadiance && *scene.ambientRadiance != glm::dvec3(0.0);
 }
 
@@ -209,6 +213,7 @@ SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primi
     SurfaceFeatures features;
     features.brdf = material.brdf;
     features.alphaMode = material.alphaMode;
+    features.transmits = seesThrough(material);
     features.vertexColors = !primitive.colors.empty();
     features.emission = material.emission != glm::vec3(0.0f);
 
@@ -253,8 +258,8 @@ SceneSummary summarise(const Scene& scene) {
             summary.maskedCasters |= material.alphaMode == AlphaMode::mask;
             summary.blendedCasters |= material.alphaMode == AlphaMode::blend;
         }
-        summary.opaque |= material.alphaMode == AlphaMode::opaque;
-        summary.masked |= material.alphaMode == AlphaMode::mask;
+        summary.opaque |= !features.blended() && material.alphaMode == AlphaMode::opaque;
+        summary.masked |= !features.blended() && material.alphaMode == AlphaMode::mask;
         summary.emission |= features.emission;
         summary.vertexColors |= features.vertexColors;
         summary.normalMaps |= features.texture("normal") != nullptr;
@@ -263,8 +268,10 @@ SceneSummary summarise(const Scene& scene) {
             summary.uv[set] |= features.usesUv(set);
         const bool usesTangent = material.brdf != kUnlit && requireBrdf(material.brdf).traits.usesTangent;
         summary.tangents |= usesTangent || features.texture("normal") != nullptr;
-        if (material.alphaMode == AlphaMode::blend) {
+        if (features.blended()) {
             summary.blended = true;
+            summary.transmits |= features.transmits;
+            summary.blendedTriangles += primitive.triangleCount();
             ++summary.blendedInstances;
             summary.blendedBrdfs.insert(material.brdf);
             continue;

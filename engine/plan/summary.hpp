@@ -51,10 +51,13 @@ struct SurfaceFeatures {
     bool emission = false;
     bool vertexColors = false;
     AlphaMode alphaMode = AlphaMode::opaque;
+    bool transmits = false;  ///< seesThrough(): something of what lies behind shows, in the surface's colour
     auto operator<=>(const SurfaceFeatures&) const = default;
 
     const SurfaceTexture* texture(std::string_view slot) const;
     bool usesUv(int set) const;
+    /// Drawn over what lies behind it, after all that is not.
+    bool blended() const { return transmits || alphaMode == AlphaMode::blend; }
 };
 
 struct SceneSummary {
@@ -78,9 +81,14 @@ struct SceneSummary {
     double peak = 0.0;
     std::string unbounded;
     double reachWeight = 0.0;  ///< sum of lightReach()'s weights of point and spot lights
+    bool fogFallsOff = false;  ///< with height
+    bool fogGrey = false;      ///< alike in all channels
+    bool fogScatters = false;  ///< light of point and spot lights to the eye
     bool ambient = false;
     bool emission = false;
     bool opaque = false, masked = false, blended = false;
+    bool transmits = false;  ///< any of the blended ones
+    size_t blendedTriangles = 0;
     bool normalMaps = false, tangents = false, vertexColors = false, occlusion = false;
     bool uv[2] = {false, false};
     size_t triangles = 0, instances = 0, blendedInstances = 0;

@@ -135,6 +135,11 @@ struct Brdf {
     /// of NAME_mirror in GLSL. Absent where the model has no such part.
     std::function<glm::dvec3(double, std::span<const double>)> mirror;
 
+    /// What a thin surface lets through of the light that comes straight from behind it, per channel, for
+    /// cos(theta) of the way to the eye: the twin of NAME_transmittance in GLSL. Absent in models that let
+    /// nothing through.
+    std::function<glm::dvec3(double, std::span<const double>)> transmittance;
+
     /// Width of the sharpest lobe that these values give, as the largest |d ln f / d theta_h| in 1/rad
     /// (algorithms: 2/alpha for GGX, sqrt(n) for Blinn-Phong, 2 sqrt(n) for Phong, 0 for Lambert).
     std::function<double(std::span<const double>)> lobeSharpness;
