@@ -2,6 +2,7 @@
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
 //   lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
+//   lobe-bench shadow-maps [--json FILE] [--rounds N] [--backend NAME]   shadow maps by size and taps
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -15,6 +16,7 @@
 #include "plan/summary.hpp"
 #include "scene/load.hpp"
 #include "scenes.hpp"
+#include "shadow_maps.hpp"
 
 namespace lobe::bench {
 namespace {
@@ -133,6 +135,32 @@ void runModels(const std::string& backend, const std::string& json, int rounds) 
     writeJson(json, report);
 }
 
+void runShadowMaps(const std::string& backend, const std::string& json, int rounds,
+                   const std::vector<int>& resolution) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
+    std::printf("%s, %s, %dx%d, least of %d rounds; look and draw in unshadowed lights of the type\n",
+                context->info().renderer.c_str(), context->info().version.c_str(), resolution[0],
+                resolution[1], rounds);
+    std::printf("%-12s %5s %5s %7s %7s %9s %9s\n", "light", "size", "taps", "look", "draw", "error %",
+                "wrong %");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    const auto print = [](const ShadowMapResult& r) {
+        std::printf("%-12s %5d %5d %7.2f %7.2f %9.3f %9.3f\n", r.light.c_str(), r.size, r.taps, r.lookUp,
+                    r.draw, 100.0 * r.error, 100.0 * r.wrong);
+        std::fflush(stdout);
+    };
+    for (const ShadowMapResult& r : shadowMapResults(*context, resolution[0], resolution[1], rounds, print))
+        report["results"].push_back({{"light", r.light},
+                                     {"size", r.size},
+                                     {"taps", r.taps},
+                                     {"look_up", r.lookUp},
+                                     {"draw", r.draw},
+                                     {"error", r.error},
+                                     {"wrong", r.wrong}});
+    writeJson(json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
@@ -141,6 +169,12 @@ int run(int argc, char** argv) {
     models->add_option("--json", json, "write the results here as well");
     models->add_option("--backend", backend, "auto, egl or osmesa");
     models->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
+    CLI::App* maps = app.add_subcommand("shadow-maps", "cost and error of shadow maps by size and taps");
+    std::vector<int> mapsResolution = {640, 360};
+    maps->add_option("--json", json, "write the results here as well");
+    maps->add_option("--backend", backend, "auto, egl or osmesa");
+    maps->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
+    maps->add_option("--resolution", mapsResolution, "W,H")->delimiter(',')->expected(2);
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -151,6 +185,11 @@ int run(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     if (models->parsed()) {
         runModels(backend, json, rounds);
+        return 0;
+    }
+
+    if (maps->parsed()) {
+        runShadowMaps(backend, json, rounds, mapsResolution);
         return 0;
     }
 

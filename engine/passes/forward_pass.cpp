@@ -39,6 +39,7 @@ void ForwardPass::draw(const View& view, bool blended) {
             const auto ambient = resources().scene.ambientRadiance.value_or(glm::dvec3(0.0));
             program.set("uAmbientRadiance", glm::vec3(ambient));
             resources().lights.bind(program, kFirstLightUnit);
+            resources().shadowMaps.bind(program);
         });
 }
 

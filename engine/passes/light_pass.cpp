@@ -29,6 +29,7 @@ void LightPass::run(const View& view) {
         shader.use();
         const int unit = resources().inputs.bind(shader, targets(), view, brdf);
         resources().lights.bind(shader, unit);
+        resources().shadowMaps.bind(shader);
         resources().inputs.setMask(&brdf);
         if (variant.defines.contains("TILES")) {
             const LightBuffers& lights = resources().lights;

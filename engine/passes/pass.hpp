@@ -6,6 +6,7 @@
 #include "passes/light_buffers.hpp"
 #include "passes/program_cache.hpp"
 #include "passes/screen_state.hpp"
+#include "passes/shadow_maps.hpp"
 #include "passes/surface_draws.hpp"
 #include "passes/targets.hpp"
 
@@ -20,6 +21,7 @@ struct FrameResources {
     SurfaceDraws& surfaces;
     LightBuffers& lights;
     ScreenInputs& inputs;
+    ShadowMaps& shadowMaps;
 };
 
 class Pass {

@@ -40,6 +40,7 @@ Capabilities capabilitiesOf(const gl::ContextInfo& info) {
     capabilities.maxTextureSize = info.maxTextureSize;
     capabilities.maxColorAttachments = std::min(info.maxColorAttachments, info.maxDrawBuffers);
     capabilities.maxTextureBufferTexels = info.maxTextureBufferTexels;
+    capabilities.maxArrayLayers = info.maxArrayLayers;
     return capabilities;
 }
 
@@ -59,7 +60,8 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               inputs(*scene, plan, tables),
-              resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
+              shadowMaps(*scene, plan, lights),
+              resources{*scene, plan, programs, targets, surfaces, lights, inputs, shadowMaps} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
@@ -80,6 +82,7 @@ struct Renderer::State {
         SurfaceDraws surfaces;
         LightBuffers lights;
         ScreenInputs inputs;
+        ShadowMaps shadowMaps;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
         std::unique_ptr<Pass> accumulate, data;

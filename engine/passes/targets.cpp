@@ -26,6 +26,7 @@ GLenum formatOf(const std::string& name) {
 Targets::Targets(const FramePlan& plan, int width, int height) : width_(width), height_(height) {
     for (const Channel& channel : plan.channels) {
         if (channel.name == "accumulated") continue;  // one for each picture that is accumulated, made below
+        if (channel.name == "shadow.maps") continue;  // of a size of its own (passes/shadow_maps.hpp)
         textures_.emplace(channel.name, gl::makeTarget(formatOf(channel.format), width, height));
     }
     std::vector<std::string> pictures;

@@ -9,6 +9,7 @@
 #include "plan/aov.hpp"
 #include "plan/capabilities.hpp"
 #include "plan/quality.hpp"
+#include "plan/shadow_layout.hpp"
 #include "plan/summary.hpp"
 
 namespace lobe {
@@ -71,6 +72,7 @@ struct FramePlan {
     bool clusteredPoint = false, clusteredSpot = false;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
+    PlannedShadowMaps shadowMaps;                     ///< of the types whose shadows are maps
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;

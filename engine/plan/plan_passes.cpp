@@ -56,6 +56,7 @@ void Planner::shadowDefines(Defines& defines, LightType type) const {
     defines["SHADOWS"] = "1";
     defines[kNames.at(type) + "_SHADOWS"] = "1";
     defines[kNames.at(type) + (method == PlannedShadow::rays ? "_SHADOW_RAYS" : "_SHADOW_MAPS")] = "1";
+    shadowMapDefines(defines, type);
 }
 
 Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const {
@@ -81,6 +82,7 @@ Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const 
 }
 
 void Planner::planPasses() {
+    planShadowMaps();
     planGbufferPass();
     planCoverage();
     planLightPass("light.directional", "pass/light.frag", LightType::directional, scene_.directionalLights);

@@ -4,8 +4,10 @@
 namespace lobe {
 
 /// `casting`: how many of the lights cast shadows.
-PlannedShadow Planner::shadowMethod(LightType, int, int) {
-    return PlannedShadow::none;
+PlannedShadow Planner::shadowMethod(LightType, int, int casting) {
+    const bool sought = plan_.quality.shadows != Shadows::none && casting > 0 && scene_.castingTriangles > 0;
+    return sought && plan_.quality.shadowMethod == ShadowMethod::maps ? PlannedShadow::maps
+                                                                      : PlannedShadow::none;
 }
 
 void Planner::planShadows() {

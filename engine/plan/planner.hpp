@@ -58,6 +58,9 @@ private:
     void requireForwardLoop(const char* type, int global) const;
     void planShadows();
     PlannedShadow shadowMethod(LightType type, int lights, int casting);
+    void planShadowMaps();
+    void planShadowMapSize();
+    void shadowMapDefines(Defines& defines, LightType type) const;
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
     /// Lights without range reach every pixel and stay outside the clusters.

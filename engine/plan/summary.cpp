@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plan/shadow_layout.hpp"
 #include "scene/brdf_tables.hpp"
 #include "shading/bands.hpp"
 
@@ -107,7 +108,10 @@ void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) 
 
 void countLights(const Scene& scene, SceneSummary& summary) {
     for (const Light& light : scene.lights) {
-        if (light.castsShadow) ++summary.shadowLights[light.type];
+        if (light.castsShadow) {
+            ++summary.shadowLights[light.type];
+            if (light.type == LightType::spot && needsCube(light)) ++summary.wideShadowSpots;
+        }
         switch (light.type) {
             case LightType::directional:
                 ++summary.directionalLights;

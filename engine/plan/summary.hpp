@@ -72,6 +72,7 @@ struct SceneSummary {
     int rangedPointLights = 0, rangedSpotLights = 0;
     std::map<LightType, int> bodyLights;    ///< rect, disk, sphere, tube: how many, where there are any
     std::map<LightType, int> shadowLights;  ///< that cast shadows, of each type
+    int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
     bool ambient = false;
     bool emission = false;
