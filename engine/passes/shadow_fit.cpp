@@ -14,8 +14,8 @@ constexpr double kPerspectiveStart = 1e-6;
 /// A map that need be no smaller than this part of what all casters take up holds them all, and stays when
 /// the camera moves.
 constexpr double kWorthCropping = 0.7;
-/// Between cascades that are equally deep (0) and equally deep in proportion (1).
-constexpr double kLogarithmic = 0.75;
+/// Ranges of distance, each as deep in proportion, that cascades are made of.
+constexpr int kSlices = 48;
 
 glm::dmat3 axesAlong(const glm::dvec3& z) {
     const glm::dvec3 up = std::abs(z.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -39,9 +39,17 @@ void clip(Polygon& polygon, const glm::dvec4& plane, Polygon& scratch) {
     polygon.swap(scratch);
 }
 
-/// Planes of what a picture shows between two distances, and a pixel about it, relative to the eye; the same
-/// for all jittered samples.
-std::vector<glm::dvec4> planesOf(const View& view, double zNear, double zFar) {
+double nearOf(const View& view) {
+    return (view.depthToZ.x + view.depthToZ.y) / (view.depthToZ.z + view.depthToZ.w);
+}
+
+double farOf(const View& view) {
+    return view.depthToZ.z > 0.0 ? view.depthToZ.x / view.depthToZ.z : kInfinity;
+}
+
+/// Planes of what a picture shows, and a pixel about it, relative to the eye; the same for all jittered
+/// samples.
+std::vector<glm::dvec4> planesOf(const View& view) {
     const glm::dvec3 dx = view.orthographic ? view.rayOriginDx : view.rayDirectionDx;
     const glm::dvec3 dy = view.orthographic ? view.rayOriginDy : view.rayDirectionDy;
     const glm::dvec3 right = glm::normalize(dx), up = glm::normalize(dy);
@@ -55,17 +63,9 @@ std::vector<glm::dvec4> planesOf(const View& view, double zNear, double zFar) {
     };
     pair(right, halfWidth);
     pair(up, halfHeight);
-    planes.emplace_back(view.forward, -zNear);
-    if (std::isfinite(zFar)) planes.emplace_back(-view.forward, zFar);
+    planes.emplace_back(view.forward, -nearOf(view));
+    if (std::isfinite(farOf(view))) planes.emplace_back(-view.forward, farOf(view));
     return planes;
-}
-
-double nearOf(const View& view) {
-    return (view.depthToZ.x + view.depthToZ.y) / (view.depthToZ.z + view.depthToZ.w);
-}
-
-double farOf(const View& view) {
-    return view.depthToZ.z > 0.0 ? view.depthToZ.x / view.depthToZ.z : kInfinity;
 }
 
 /// Calls `found` with what of each triangle is inside all planes, relative to `eye`.
@@ -194,13 +194,12 @@ DirectionalFit::DirectionalFit(const Scene& scene, const glm::dvec3& direction)
     }
 }
 
-DirectionalFit::Box DirectionalFit::visible(const View& view, double zNear, double zFar, double& nearest,
-                                            double& farthest) const {
+DirectionalFit::Box DirectionalFit::visible(const View& view, double& nearest, double& farthest) const {
     Box seen;
     nearest = kInfinity;
     farthest = 0.0;
     const glm::dvec3 shift = view.eye - pivot_;
-    clippedTriangles(scene_, view.eye, planesOf(view, zNear, zFar), [&](const Polygon& polygon) {
+    clippedTriangles(scene_, view.eye, planesOf(view), [&](const Polygon& polygon) {
         for (const glm::dvec3& point : polygon) {
             const double z = glm::dot(point, view.forward);
             nearest = std::min(nearest, z);
@@ -209,6 +208,33 @@ DirectionalFit::Box DirectionalFit::visible(const View& view, double zNear, doub
         }
     });
     return seen;
+}
+
+/// What is seen between each two neighbours of `edges`.
+std::vector<DirectionalFit::Box> DirectionalFit::slices(const View& view,
+                                                        const std::vector<double>& edges) const {
+    std::vector<Box> boxes(edges.size() - 1);
+    const glm::dvec3 shift = view.eye - pivot_;
+    const auto sliceOf = [&](double z) {
+        const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, z);
+        return static_cast<size_t>(above - edges.begin()) - 1;
+    };
+    Polygon part, scratch;
+    clippedTriangles(scene_, view.eye, planesOf(view), [&](const Polygon& polygon) {
+        double low = kInfinity, high = 0.0;
+        for (const glm::dvec3& point : polygon) {
+            low = std::min(low, glm::dot(point, view.forward));
+            high = std::max(high, glm::dot(point, view.forward));
+        }
+        for (size_t i = sliceOf(low); i <= sliceOf(high); ++i) {
+            part = polygon;
+            if (low < edges[i]) clip(part, glm::dvec4(view.forward, -edges[i]), scratch);
+            if (high > edges[i + 1]) clip(part, glm::dvec4(-view.forward, edges[i + 1]), scratch);
+            for (const glm::dvec3& point : part)
+                boxes[i].add(lightFromWorld_ * (point + shift));
+        }
+    });
+    return boxes;
 }
 
 /// Where something that is seen can be in shadow: all of the casters' side of the light if that is hardly
@@ -251,34 +277,67 @@ ShadowProjection DirectionalFit::around(const Box& box, int size, const ShadowFi
 
 DirectionalMaps DirectionalFit::fit(const View& view, int size, const ShadowFilter& filter) const {
     double zNear = 0.0, zFar = 0.0;
-    const Box seen = visible(view, nearOf(view), farOf(view), zNear, zFar);
+    const Box seen = visible(view, zNear, zFar);
     DirectionalMaps one;
     one.ends.fill(kInfinity);
     one.maps.push_back(around(crop(seen), size, filter));
     if (view.orthographic || one.maps[0].empty || !(zFar > zNear)) return one;
     const double pixel = glm::length(view.rayDirectionDx);  // its size at 1 m
-    const auto coarseness = [&](const ShadowProjection& map, double distance) {
-        return std::max(map.texel.x, map.texel.y) / (pixel * distance);
+    const auto coarseness = [&](const Box& box, int texels, double distance) {
+        const ShadowProjection map = around(crop(box), texels, filter);
+        return map.empty ? 0.0 : std::max(map.texel.x, map.texel.y) / (pixel * distance);
     };
-    const double worst = coarseness(one.maps[0], zNear);
+    const double worst = coarseness(seen, size, zNear);
     if (worst <= 1.0) return one;
 
-    DirectionalMaps four;
-    four.ends.fill(kInfinity);
-    double start = zNear, coarsest = 0.0;
-    for (int i = 1; i <= kMostCascades; ++i) {
-        const double t = static_cast<double>(i) / kMostCascades;
-        const double end = i == kMostCascades ? kInfinity
-                                              : (1.0 - kLogarithmic) * (zNear + (zFar - zNear) * t) +
-                                                    kLogarithmic * zNear * std::pow(zFar / zNear, t);
-        double nearest = 0.0, farthest = 0.0;
-        const Box slice = visible(view, start, end, nearest, farthest);
-        four.maps.push_back(around(crop(slice), size / 2, filter));
-        if (!four.maps.back().empty) coarsest = std::max(coarsest, coarseness(four.maps.back(), nearest));
-        if (i < kMostCascades) four.ends[static_cast<size_t>(i) - 1] = end;
-        start = end;
+    std::vector<double> edges;
+    for (int i = 0; i <= kSlices; ++i)
+        edges.push_back(zNear * std::pow(zFar / zNear, static_cast<double>(i) / kSlices));
+    const std::vector<Box> boxes = slices(view, edges);
+    // worstOf[k][j]: the least that k + 1 cascades over the first j slices can have as their worst;
+    // from[k][j]: where the last of them begins.
+    std::array<std::array<double, kSlices + 1>, kMostCascades> worstOf{};
+    std::array<std::array<int, kSlices + 1>, kMostCascades> from{};
+    for (auto& row : worstOf)
+        row.fill(kInfinity);
+    for (int i = 0; i < kSlices; ++i) {
+        Box box;
+        double start = 0.0;
+        for (int j = i; j < kSlices; ++j) {
+            if (!boxes[static_cast<size_t>(j)].empty()) {
+                if (box.empty()) start = edges[static_cast<size_t>(j)];
+                box.add(boxes[static_cast<size_t>(j)].lower);
+                box.add(boxes[static_cast<size_t>(j)].upper);
+            }
+            const double own = box.empty() ? 0.0 : coarseness(box, size / 2, start);
+            const auto end = static_cast<size_t>(j) + 1;
+            for (size_t k = 0; k < kMostCascades; ++k) {
+                const double before = i == 0   ? (k == 0 ? 0.0 : kInfinity)
+                                      : k == 0 ? kInfinity
+                                               : worstOf[k - 1][static_cast<size_t>(i)];
+                if (std::max(before, own) >= worstOf[k][end]) continue;
+                worstOf[k][end] = std::max(before, own);
+                from[k][end] = i;
+            }
+        }
     }
-    return coarsest < worst ? four : one;
+    if (!(worstOf[kMostCascades - 1][kSlices] < worst)) return one;
+    DirectionalMaps four;
+    four.maps.resize(kMostCascades);
+    int end = kSlices;
+    for (int k = kMostCascades - 1; k >= 0; --k) {
+        const int start = from[static_cast<size_t>(k)][static_cast<size_t>(end)];
+        Box box;
+        for (int i = start; i < end; ++i)
+            if (const Box& slice = boxes[static_cast<size_t>(i)]; !slice.empty()) {
+                box.add(slice.lower);
+                box.add(slice.upper);
+            }
+        four.maps[static_cast<size_t>(k)] = around(crop(box), size / 2, filter);
+        if (k > 0) four.ends[static_cast<size_t>(k) - 1] = edges[static_cast<size_t>(start)];
+        end = start;
+    }
+    return four;
 }
 
 }  // namespace lobe

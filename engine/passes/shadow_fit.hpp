@@ -63,7 +63,8 @@ ShadowProjection cubeFace(const glm::dvec3& position, int face, double sceneRadi
 inline constexpr int kMostCascades = 4;
 
 /// A directional light's maps. One of `size` texels a side; or, where that would be coarser on the screen,
-/// four of half the side, each for a range of distances from the camera.
+/// four of half the side, each for a range of distances from the camera: those whose largest texel, in
+/// pixels, is smallest.
 struct DirectionalMaps {
     std::vector<ShadowProjection> maps;
     /// Distance along the view axis where the next map begins, m; infinite after the last.
@@ -84,7 +85,8 @@ private:
         void add(const glm::dvec3& point);
         bool empty() const { return !(lower.x <= upper.x); }
     };
-    Box visible(const View& view, double zNear, double zFar, double& nearest, double& farthest) const;
+    Box visible(const View& view, double& nearest, double& farthest) const;
+    std::vector<Box> slices(const View& view, const std::vector<double>& edges) const;
     ShadowProjection around(const Box& box, int size, const ShadowFilter& filter) const;
     Box crop(const Box& seen) const;
 
