@@ -2,8 +2,8 @@
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
 //   lobe-bench shadows [--scene FILE]... [--json FILE]   a shadowed light against the same light without
-//   shadow lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook
-//   form
+//   lobe-bench shadow-maps [--json FILE] [--rounds N] [--backend NAME]   shadow maps by size and taps
+//   lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -17,6 +17,7 @@
 #include "plan/summary.hpp"
 #include "scene/load.hpp"
 #include "scenes.hpp"
+#include "shadow_maps.hpp"
 #include "shadows.hpp"
 
 namespace lobe::bench {
@@ -181,6 +182,32 @@ void runShadows(const ShadowRun& settings) {
     writeJson(settings.json, report);
 }
 
+void runShadowMaps(const std::string& backend, const std::string& json, int rounds,
+                   const std::vector<int>& resolution) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
+    std::printf("%s, %s, %dx%d, least of %d rounds; look and draw in unshadowed lights of the type\n",
+                context->info().renderer.c_str(), context->info().version.c_str(), resolution[0],
+                resolution[1], rounds);
+    std::printf("%-12s %5s %5s %7s %7s %9s %9s\n", "light", "size", "taps", "look", "draw", "error %",
+                "wrong %");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    const auto print = [](const ShadowMapResult& r) {
+        std::printf("%-12s %5d %5d %7.2f %7.2f %9.3f %9.3f\n", r.light.c_str(), r.size, r.taps, r.lookUp,
+                    r.draw, 100.0 * r.error, 100.0 * r.wrong);
+        std::fflush(stdout);
+    };
+    for (const ShadowMapResult& r : shadowMapResults(*context, resolution[0], resolution[1], rounds, print))
+        report["results"].push_back({{"light", r.light},
+                                     {"size", r.size},
+                                     {"taps", r.taps},
+                                     {"look_up", r.lookUp},
+                                     {"draw", r.draw},
+                                     {"error", r.error},
+                                     {"wrong", r.wrong}});
+    writeJson(json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
@@ -196,6 +223,12 @@ int run(int argc, char** argv) {
     shadows->add_option("--backend", shadowRun.backend, "auto, egl or osmesa");
     shadows->add_option("--resolution", shadowRun.resolution, "W,H")->delimiter(',')->expected(2);
     shadows->add_option("--rounds", shadowRun.rounds, "times that each is drawn")->check(CLI::Range(1, 1000));
+    CLI::App* maps = app.add_subcommand("shadow-maps", "cost and error of shadow maps by size and taps");
+    std::vector<int> mapsResolution = {640, 360};
+    maps->add_option("--json", json, "write the results here as well");
+    maps->add_option("--backend", backend, "auto, egl or osmesa");
+    maps->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
+    maps->add_option("--resolution", mapsResolution, "W,H")->delimiter(',')->expected(2);
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -210,6 +243,11 @@ int run(int argc, char** argv) {
     }
     if (shadows->parsed()) {
         runShadows(shadowRun);
+        return 0;
+    }
+
+    if (maps->parsed()) {
+        runShadowMaps(backend, json, rounds, mapsResolution);
         return 0;
     }
 

@@ -62,6 +62,7 @@ void ForwardPass::draw(Group& group, const View& view, SurfaceOrder order, bool 
         int unit = resources().rays.bind(program, kFirstLightUnit, view);
         unit = resources().lights.bind(program, unit);
         resources().bodies.bind(program, unit, plan().areaPointsForward);
+        resources().shadowMaps.bind(program);
         if (scene.fog) {
             program.set("uRayOrigin", glm::vec3(view.rayOrigin));
             program.set("uRayOriginDx", glm::vec3(view.rayOriginDx));
@@ -94,9 +95,10 @@ void ForwardPass::drawPeeled(const View& view) {
             setBlending(group.colored);
             if (rest) {
                 glDisable(GL_DEPTH_TEST);  // all that is in front of the last layer
-                resources().remarks.insert("more than " + std::to_string(plan().mostLayers) +
-                                           " layers of blended surfaces in a pixel: those nearer to the eye are "
-                                           "in order by object only");
+                resources().remarks.insert(
+                    "more than " + std::to_string(plan().mostLayers) +
+                    " layers of blended surfaces in a pixel: those nearer to the eye are "
+                    "in order by object only");
                 draw(group, view, SurfaceOrder::backToFront, true);
                 continue;
             }

@@ -70,6 +70,13 @@ LightBuffers::LightBuffers(const Scene& scene, const FramePlan& plan) : reach_(p
     }
 }
 
+std::vector<const Light*> LightBuffers::casting(LightType type) const {
+    std::vector<const Light*> result;
+    for (const Light* light : lights_[static_cast<size_t>(type)])
+        if (light->castsShadow) result.push_back(light);
+    return result;
+}
+
 void LightBuffers::update(const View& view) {
     for (size_t type = 0; type < 3; ++type) {
         if (lights_[type].empty()) continue;

@@ -29,6 +29,9 @@ public:
     /// its types. Returns the first free unit.
     int bind(const gl::Program& program, int firstUnit) const;
 
+    /// Those of a type that cast shadows, in the order of their slots.
+    std::vector<const Light*> casting(LightType type) const;
+
     int count(LightType type) const { return static_cast<int>(lights_[static_cast<size_t>(type)].size()); }
     /// Lights of the type that are outside the clusters: the first ones of its buffer.
     int globalCount(LightType type) const { return global_[static_cast<size_t>(type)]; }

@@ -30,6 +30,7 @@ void LightPass::run(const View& view) {
         int unit = resources().inputs.bind(shader, targets(), view, brdf);
         unit = resources().rays.bind(shader, unit, view);
         resources().lights.bind(shader, unit);
+        resources().shadowMaps.bind(shader);
         resources().inputs.setMask(&brdf);
         if (variant.defines.contains("TILES")) {
             const LightBuffers& lights = resources().lights;

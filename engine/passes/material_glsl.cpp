@@ -149,6 +149,10 @@ std::string surfaceMaterialGlsl(const FramePlan& plan, const SurfaceFeatures& fe
     return text;
 }
 
+std::string coverageGlsl(const SurfaceFeatures& features) {
+    return varyings(features) + sampleFunctions(features) + alphaFunction(features);
+}
+
 std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& planned) {
     if (planned.name == kUnlit) return {};
     const Brdf& brdf = requireBrdf(planned.name);

@@ -12,6 +12,9 @@ namespace lobe {
 /// outputs.
 std::string surfaceMaterialGlsl(const FramePlan& plan, const SurfaceFeatures& features);
 
+/// For programs that need no more of a masked surface than where it has holes: surface_alpha().
+std::string coverageGlsl(const SurfaceFeatures& features);
+
 /// For screen programs (lights, AOVs): gbuffer_read_params(), from the G-buffer, the material table and
 /// uniforms.
 std::string screenMaterialGlsl(const FramePlan& plan, const PlannedBrdf& brdf);

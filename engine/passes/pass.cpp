@@ -8,10 +8,12 @@
 #include "passes/gbuffer_pass.hpp"
 #include "passes/light_pass.hpp"
 #include "passes/screen_passes.hpp"
+#include "passes/shadow_map_pass.hpp"
 
 namespace lobe {
 
 std::unique_ptr<Pass> makePass(const PlannedPass& planned, FrameResources& resources) {
+    if (planned.name == "shadow.maps") return std::make_unique<ShadowMapPass>(planned, resources);
     if (planned.name == "gbuffer") return std::make_unique<GbufferPass>(planned, resources);
     if (planned.name == "coverage") return std::make_unique<CoveragePass>(planned, resources);
     if (planned.name == "light.directional")

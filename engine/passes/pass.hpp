@@ -10,6 +10,7 @@
 #include "passes/program_cache.hpp"
 #include "passes/ray_scene.hpp"
 #include "passes/screen_state.hpp"
+#include "passes/shadow_maps.hpp"
 #include "passes/surface_draws.hpp"
 #include "passes/targets.hpp"
 
@@ -26,6 +27,7 @@ struct FrameResources {
     BodyLights& bodies;
     ScreenInputs& inputs;
     RayScene& rays;  ///< empty where the plan has none
+    ShadowMaps& shadowMaps;
     std::set<std::string> remarks;  ///< what a picture lacks of what the plan says; for people
 };
 

@@ -40,6 +40,7 @@ Capabilities capabilitiesOf(const gl::ContextInfo& info) {
     capabilities.maxTextureSize = info.maxTextureSize;
     capabilities.maxColorAttachments = std::min(info.maxColorAttachments, info.maxDrawBuffers);
     capabilities.maxTextureBufferTexels = info.maxTextureBufferTexels;
+    capabilities.maxArrayLayers = info.maxArrayLayers;
     return capabilities;
 }
 
@@ -61,7 +62,9 @@ struct Renderer::State {
               bodies(*scene, plan),
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
-              resources{*scene, plan, programs, targets, surfaces, lights, bodies, inputs, rays, {}} {
+              shadowMaps(*scene, plan, lights),
+              resources{*scene, plan,   programs, targets,    surfaces, lights,
+                        bodies, inputs, rays,     shadowMaps, {}} {
             for (const PlannedPass& planned : plan.passes) {
                 if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);
@@ -85,6 +88,7 @@ struct Renderer::State {
         BodyLights bodies;
         ScreenInputs inputs;
         RayScene rays;
+        ShadowMaps shadowMaps;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
         std::unique_ptr<Pass> accumulate, data;

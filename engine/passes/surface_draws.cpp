@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/frustum.hpp"
 #include "passes/material_glsl.hpp"
 #include "passes/parameters.hpp"
 
@@ -18,25 +19,6 @@ struct AttributeArray {
     const void* data;
     size_t bytes;
 };
-
-/// Planes of the view frustum in relative space, positive inside; reversed depth has no far plane when
-/// infinite.
-std::vector<glm::dvec4> frustumPlanes(const View& view) {
-    const glm::dmat4 rows = glm::transpose(view.clipFromRelative);
-    std::vector<glm::dvec4> planes = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
-                                      rows[3] - rows[1], rows[3] - rows[2], rows[2]};
-    for (glm::dvec4& plane : planes) {
-        const double length = glm::length(glm::dvec3(plane));
-        plane = length > 0.0 ? plane / length : glm::dvec4(0, 0, 0, 1);
-    }
-    return planes;
-}
-
-bool inView(const std::vector<glm::dvec4>& planes, const glm::dvec3& center, double radius) {
-    return std::all_of(planes.begin(), planes.end(), [&](const glm::dvec4& plane) {
-        return glm::dot(glm::dvec3(plane), center) + plane.w >= -radius;
-    });
-}
 
 /// Inverse transpose up to a positive factor, also for matrices without inverse (flattened nodes).
 glm::dmat3 normalMatrix(const glm::dmat3& m) {
@@ -188,11 +170,10 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
         if (variantOf(pass, surface) == nullptr) continue;
         const Instance& instance = scene_.instances[i];
         const Geometry& shape = geometry(instance.primitive);
-        const glm::dmat4& m = instance.worldFromLocal;
-        const glm::dvec3 center = glm::dvec3(m * glm::dvec4(shape.center, 1.0)) - view.eye;
-        // The Frobenius norm bounds how much any direction is stretched.
-        const double stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
-        if (!inView(planes, center, shape.radius * stretch)) continue;
+        const BoundingSphere bound =
+            movedSphere(instance.worldFromLocal, shape.center, shape.radius, view.eye);
+        const glm::dvec3& center = bound.center;
+        if (!inView(planes, bound)) continue;
         items.push_back({static_cast<int>(i), surface, glm::dot(center, view.forward)});
     }
     const auto materialOf = [this](const Item& item) {

@@ -33,6 +33,12 @@ public:
     void draw(const PlannedPass& pass, const View& view, SurfaceOrder order,
               const std::function<void(const gl::Program&)>& perProgram);
 
+    /// Compiles and uploads for drawCasters().
+    void prepareCasters(const PlannedPass& pass);
+    /// Draws the depth of what casts shadows and is among the pass's variants, both sides of it.
+    void drawCasters(const PlannedPass& pass, const View& view,
+                     const std::function<void(const gl::Program&)>& perProgram);
+
 private:
     struct Geometry {
         gl::VertexArray vertexArray;
@@ -47,6 +53,7 @@ private:
         double depth = 0.0;
     };
     const Geometry& geometry(int primitive);
+    const gl::Program& casterProgram(const PlannedPass& pass, const Variant& variant);
     void useMaterial(const gl::Program& program, const Variant& variant, int material);
     const Variant* variantOf(const PlannedPass& pass, int surface) const;
     const gl::Program& program(const PlannedPass& pass, const Variant& variant);

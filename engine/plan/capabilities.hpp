@@ -11,6 +11,7 @@ struct Capabilities {
     bool reliableTimers = false;  ///< timer queries measure passes (hardware drivers)
     int maxTextureSize = 1024;    ///< GL 3.3's guaranteed minimum
     int maxColorAttachments = 8;
+    int maxArrayLayers = 256;  ///< of a texture array
     int maxTextureBufferTexels = 65536;
 };
 

@@ -9,6 +9,7 @@
 #include "plan/aov.hpp"
 #include "plan/capabilities.hpp"
 #include "plan/quality.hpp"
+#include "plan/shadow_layout.hpp"
 #include "plan/summary.hpp"
 
 namespace lobe {
@@ -86,11 +87,12 @@ struct FramePlan {
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
     std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
-    int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
-    int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
-    bool rays = false;          ///< the scene's hierarchy of boxes is made for the rays of some program
-    int airlightNodes = 0;  ///< of each lamp's airlight; 0: there is none
-    int mostLayers = 0;     ///< of blended surfaces that are peeled; 0: they are sorted by object
+    int areaPoints = 0;            ///< on each light with a body, in each frame; 0: none are needed
+    int areaPointsForward = 0;     ///< the same, for surfaces of the forward pass
+    bool rays = false;             ///< the scene's hierarchy of boxes is made for the rays of some program
+    int airlightNodes = 0;         ///< of each lamp's airlight; 0: there is none
+    int mostLayers = 0;            ///< of blended surfaces that are peeled; 0: they are sorted by object
+    PlannedShadowMaps shadowMaps;  ///< of the types whose shadows are maps
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;

@@ -52,6 +52,7 @@ void Planner::shadowDefines(Defines& defines, LightType type) const {
     defines[kNames.at(type) + "_SHADOWS"] = "1";
     defines[kNames.at(type) + (method == PlannedShadow::rays ? "_SHADOW_RAYS" : "_SHADOW_MAPS")] = "1";
     if (method == PlannedShadow::rays) rayDefines(defines);
+    shadowMapDefines(defines, type);
 }
 
 Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const {
@@ -78,6 +79,7 @@ Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const 
 }
 
 void Planner::planPasses() {
+    planShadowMaps();
     planGbufferPass();
     planCoverage();
     planLightPass(LightType::directional, scene_.directionalLights);

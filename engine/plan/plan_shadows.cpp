@@ -34,6 +34,7 @@ PlannedShadow Planner::shadowMethod(LightType type, int lights, int casting) {
         leaveOut("shadow", nameOf(type), reason);
         return PlannedShadow::none;
     }
+    if (plan_.quality.shadowMethod == ShadowMethod::maps) return PlannedShadow::maps;
     requireRays();
     plan_.notes.push_back(std::string("shadows of ") + nameOf(type) +
                           " lights: rays, exact and without bias, for " +

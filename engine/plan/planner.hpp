@@ -74,6 +74,9 @@ private:
     /// For programs that include shadow/rays.glsl; where any does, FramePlan::rays is to be set.
     void rayDefines(Defines& defines) const;
     void noteRays();
+    void planShadowMaps();
+    void planShadowMapSize();
+    void shadowMapDefines(Defines& defines, LightType type) const;
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
     void planReach();

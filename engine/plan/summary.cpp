@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/shadow_layout.hpp"
 #include "scene/brdf_tables.hpp"
 #include "shading/bands.hpp"
 
@@ -111,7 +112,10 @@ void countLights(const Scene& scene, SceneSummary& summary) {
     for (const Light& light : scene.lights) {
         if (light.type == LightType::point || light.type == LightType::spot)
             summary.reachWeight += reachWeight(light);
-        if (light.castsShadow) ++summary.shadowLights[light.type];
+        if (light.castsShadow) {
+            ++summary.shadowLights[light.type];
+            if (light.type == LightType::spot && needsCube(light)) ++summary.wideShadowSpots;
+        }
         switch (light.type) {
             case LightType::directional:
                 ++summary.directionalLights;

@@ -75,6 +75,7 @@ struct SceneSummary {
     int rangedPointLights = 0, rangedSpotLights = 0;
     std::map<LightType, int> bodyLights;    ///< rect, disk, sphere, tube: how many, where there are any
     std::map<LightType, int> shadowLights;  ///< that cast shadows, of each type
+    int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
     /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,
     /// 1/sr, infinite where one has no bound, and then the model that has none.

@@ -1,0 +1,158 @@
+#include "shadow_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "measure/timing.hpp"
+#include "passes/renderer.hpp"
+#include "reference/tracer.hpp"
+#include "support/scenes.hpp"
+
+namespace lobe::bench {
+namespace {
+
+using namespace lobe::test;
+
+/// Lights of one type beside each other: what one more costs is the slope.
+constexpr int kFew = 1, kMany = 5;
+
+Scene ballAndPlane(const Light& light, int count) {
+    Scene scene;
+    const int material = addMaterial(scene, "lambert");
+    const glm::dmat4 flat = glm::rotate(glm::dmat4(1.0), -0.5 * std::numbers::pi, glm::dvec3(1, 0, 0));
+    addInstance(scene, addQuad(scene, material, 3.0f), flat);
+    addInstance(scene, addSphere(scene, material, 67),
+                glm::scale(glm::translate(glm::dmat4(1.0), {0, 0.6, 0}), glm::dvec3(0.5)));
+    scene.lights.assign(static_cast<size_t>(count), light);
+    return scene;
+}
+
+Camera eye() {
+    Camera camera = lookAt({0.4, 2.2, 3.2}, {0.3, 0.2, 0}, 0.7);
+    camera.zNear = 0.05;
+    return camera;
+}
+
+struct Times {
+    double light = 0.0, maps = 0.0;  ///< ms
+};
+
+class Drawn {
+public:
+    Drawn(gl::Context& context, const Scene& scene, int width, int height, const Quality& quality)
+        : renderer_(context) {
+        options_.width = width;
+        options_.height = height;
+        options_.quality = quality;
+        options_.timePasses = true;
+        scene_ = std::make_shared<Scene>(scene);
+        renderer_.setScene(scene_, options_);
+        renderer_.render(eye());  // compiles
+    }
+    /// Keeps the least times. Maps are drawn anew.
+    void draw() {
+        renderer_.setScene(scene_, options_);
+        for (int i = 0; i < 2; ++i) {
+            image_ = renderer_.render(eye()).image;
+            const Picture picture = renderer_.render(eye());
+            for (const PassTime& time : picture.passTimes)
+                if (time.pass.starts_with("light.")) least_.light = std::min(least_.light, time.milliseconds);
+        }
+        renderer_.setScene(scene_, options_);
+        for (const PassTime& time : renderer_.render(eye()).passTimes)
+            if (time.pass == "shadow.maps") least_.maps = std::min(least_.maps, time.milliseconds);
+    }
+    const Times& least() const { return least_; }
+    const Image& image() const { return image_; }
+
+private:
+    Renderer renderer_;
+    std::shared_ptr<const Scene> scene_;
+    RenderOptions options_;
+    Image image_;
+    Times least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+};
+
+/// Visibility through each pixel's centre, -1 where nothing is seen.
+std::vector<double> truth(const Scene& scene, int width, int height) {
+    const View view = makeView(eye(), width, height);
+    const reference::Tracer tracer(std::make_shared<Scene>(scene), view.eye);
+    const Light& light = scene.lights[0];
+    std::vector<double> visible;
+    std::vector<reference::SurfacePoint> layers;
+    for (int row = 0; row < height; ++row)
+        for (int x = 0; x < width; ++x) {
+            tracer.surfacesAlong(reference::pixelRay(view, x + 0.5, height - row - 0.5), nullptr, layers);
+            if (layers.empty()) {
+                visible.push_back(-1.0);
+                continue;
+            }
+            const bool far = light.type == LightType::directional;
+            visible.push_back(tracer.visibility(layers[0],
+                                                far ? -light.direction : light.position - layers[0].position,
+                                                far ? std::numeric_limits<double>::infinity() : 1.0));
+        }
+    return visible;
+}
+
+void compare(const Image& shadowed, const Image& plain, const std::vector<double>& truth,
+             ShadowMapResult& result) {
+    int pixels = 0, wrong = 0;
+    double sum = 0.0;
+    for (int y = 0; y < plain.height; ++y)
+        for (int x = 0; x < plain.width; ++x) {
+            const double v =
+                truth[static_cast<size_t>(y) * static_cast<size_t>(plain.width) + static_cast<size_t>(x)];
+            const auto full = static_cast<double>(plain.pixel(x, y)[1]);
+            if (v < 0.0 || !(full > 0.0)) continue;
+            const double off = std::abs(static_cast<double>(shadowed.pixel(x, y)[1]) / full - v);
+            ++pixels;
+            sum += off;
+            wrong += off > 0.5 ? 1 : 0;
+        }
+    result.error = sum / pixels;
+    result.wrong = static_cast<double>(wrong) / pixels;
+}
+
+}  // namespace
+
+std::vector<ShadowMapResult> shadowMapResults(gl::Context& context, int width, int height, int rounds,
+                                              const std::function<void(const ShadowMapResult&)>& done) {
+    const std::pair<const char*, Light> lights[] = {
+        {"directional", directional({0.6, -1.0, -0.2}, glm::dvec3(2.0))},
+        {"point", point({-1.5, 3.0, 1.0}, glm::dvec3(20.0))},
+        {"spot", spot({-1.5, 3.0, 1.0}, {0.2, 0, 0}, glm::dvec3(20.0), 0.6, 0.8)}};
+    std::vector<ShadowMapResult> results;
+    for (const auto& [name, light] : lights) {
+        Quality quality{.samples = 1, .gbufferBits = 32};
+        quality.shadows = Shadows::none;
+        const Scene few = ballAndPlane(light, kFew), many = ballAndPlane(light, kMany);
+        const std::vector<double> visible = truth(few, width, height);
+        Drawn fewPlain(context, few, width, height, quality),
+            manyPlain(context, many, width, height, quality);
+        quality.shadows = Shadows::hard;
+        quality.shadowMethod = ShadowMethod::maps;
+        for (const int size : {512, 1024, 2048, 4096})
+            for (const int taps : {1, 4, 16, 64}) {
+                if (size != 2048 && taps > 4) continue;
+                quality.shadowSize = size;
+                quality.shadowTaps = taps;
+                Drawn fewMapped(context, few, width, height, quality),
+                    manyMapped(context, many, width, height, quality);
+                for (int round = 0; round < rounds; ++round)
+                    for (Drawn* drawn : {&fewPlain, &manyPlain, &fewMapped, &manyMapped})
+                        drawn->draw();
+                const double plain = (manyPlain.least().light - fewPlain.least().light) / (kMany - kFew);
+                ShadowMapResult result{name, size, taps, 0.0, 0.0, 0.0, 0.0};
+                result.lookUp = (manyMapped.least().light - fewMapped.least().light) / (kMany - kFew) / plain;
+                result.draw = fewMapped.least().maps / plain;
+                compare(fewMapped.image(), fewPlain.image(), visible, result);
+                results.push_back(result);
+                done(result);
+            }
+    }
+    return results;
+}
+
+}  // namespace lobe::bench
