@@ -2,13 +2,14 @@
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
 //   lobe-bench shadows [--scene FILE]... [--json FILE]   a shadowed light against the same light without
-//   shadow lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook
-//   form
+//   shadow lobe-bench area [--json FILE]   a light with a body against a point light lobe-bench models
+//   [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "area_lights.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "measure/floor.hpp"
@@ -181,6 +182,29 @@ void runShadows(const ShadowRun& settings) {
     writeJson(settings.json, report);
 }
 
+void runAreaLights(const ShadowRun& settings) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(settings.backend)});
+    const int width = settings.resolution[0], height = settings.resolution[1];
+    std::printf("%s, %s, %dx%d, ns a light and pixel, least of %d rounds\n", context->info().renderer.c_str(),
+                context->info().version.c_str(), width, height, settings.rounds);
+    std::printf("%-10s %-8s %-12s %9s %9s %7s\n", "model", "light", "method", "point", "body", "ratio");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    const auto print = [](const AreaLightTime& time) {
+        std::printf("%-10s %-8s %-12s %9.1f %9.1f %7.2f\n", time.model.c_str(), time.light.c_str(),
+                    time.method.c_str(), time.point, time.body, time.ratio);
+        std::fflush(stdout);
+    };
+    for (const AreaLightTime& time : areaLightTimes(*context, width, height, settings.rounds, print))
+        report["results"].push_back({{"model", time.model},
+                                     {"light", time.light},
+                                     {"method", time.method},
+                                     {"point_ns", time.point},
+                                     {"body_ns", time.body},
+                                     {"ratio", time.ratio}});
+    writeJson(settings.json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
@@ -196,6 +220,12 @@ int run(int argc, char** argv) {
     shadows->add_option("--backend", shadowRun.backend, "auto, egl or osmesa");
     shadows->add_option("--resolution", shadowRun.resolution, "W,H")->delimiter(',')->expected(2);
     shadows->add_option("--rounds", shadowRun.rounds, "times that each is drawn")->check(CLI::Range(1, 1000));
+    ShadowRun areaRun;
+    CLI::App* area = app.add_subcommand("area", "a light with a body against a point light");
+    area->add_option("--json", areaRun.json, "write the results here as well");
+    area->add_option("--backend", areaRun.backend, "auto, egl or osmesa");
+    area->add_option("--resolution", areaRun.resolution, "W,H")->delimiter(',')->expected(2);
+    area->add_option("--rounds", areaRun.rounds, "times that each is drawn")->check(CLI::Range(1, 1000));
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -210,6 +240,10 @@ int run(int argc, char** argv) {
     }
     if (shadows->parsed()) {
         runShadows(shadowRun);
+        return 0;
+    }
+    if (area->parsed()) {
+        runAreaLights(areaRun);
         return 0;
     }
 
