@@ -9,6 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "area_lights.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "measure/floor.hpp"
@@ -208,6 +209,29 @@ void runShadowMaps(const std::string& backend, const std::string& json, int roun
     writeJson(json, report);
 }
 
+void runAreaLights(const ShadowRun& settings) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(settings.backend)});
+    const int width = settings.resolution[0], height = settings.resolution[1];
+    std::printf("%s, %s, %dx%d, ns a light and pixel, least of %d rounds\n", context->info().renderer.c_str(),
+                context->info().version.c_str(), width, height, settings.rounds);
+    std::printf("%-10s %-8s %-12s %9s %9s %7s\n", "model", "light", "method", "point", "body", "ratio");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    const auto print = [](const AreaLightTime& time) {
+        std::printf("%-10s %-8s %-12s %9.1f %9.1f %7.2f\n", time.model.c_str(), time.light.c_str(),
+                    time.method.c_str(), time.point, time.body, time.ratio);
+        std::fflush(stdout);
+    };
+    for (const AreaLightTime& time : areaLightTimes(*context, width, height, settings.rounds, print))
+        report["results"].push_back({{"model", time.model},
+                                     {"light", time.light},
+                                     {"method", time.method},
+                                     {"point_ns", time.point},
+                                     {"body_ns", time.body},
+                                     {"ratio", time.ratio}});
+    writeJson(settings.json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
@@ -229,6 +253,12 @@ int run(int argc, char** argv) {
     maps->add_option("--backend", backend, "auto, egl or osmesa");
     maps->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
     maps->add_option("--resolution", mapsResolution, "W,H")->delimiter(',')->expected(2);
+    ShadowRun areaRun;
+    CLI::App* area = app.add_subcommand("area", "a light with a body against a point light");
+    area->add_option("--json", areaRun.json, "write the results here as well");
+    area->add_option("--backend", areaRun.backend, "auto, egl or osmesa");
+    area->add_option("--resolution", areaRun.resolution, "W,H")->delimiter(',')->expected(2);
+    area->add_option("--rounds", areaRun.rounds, "times that each is drawn")->check(CLI::Range(1, 1000));
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -243,6 +273,10 @@ int run(int argc, char** argv) {
     }
     if (shadows->parsed()) {
         runShadows(shadowRun);
+        return 0;
+    }
+    if (area->parsed()) {
+        runAreaLights(areaRun);
         return 0;
     }
 

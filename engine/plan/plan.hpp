@@ -116,8 +116,6 @@ struct FramePlan {
     int gbufferBytesPerPixel() const;
 };
 
-/// Most rays, and most points on lights without rays, that one draw's fragment may go through: llvmpipe ends
-/// loops at 65535 rounds in all, and a ray takes up to some hundred.
 /// Most rays, and most points without rays, that a fragment of one draw follows to lights with a body:
 /// llvmpipe ends loops at 65535 rounds in all, and few rays take more than 500.
 inline constexpr int kRaysPerDraw = 16;
