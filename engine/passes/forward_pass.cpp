@@ -92,9 +92,10 @@ void ForwardPass::drawPeeled(const View& view) {
             setBlending(group.colored);
             if (rest) {
                 glDisable(GL_DEPTH_TEST);  // all that is in front of the last layer
-                resources().remarks.insert("more than " + std::to_string(plan().mostLayers) +
-                                           " layers of blended surfaces in a pixel: those nearer to the eye are "
-                                           "in order by object only");
+                resources().remarks.insert(
+                    "more than " + std::to_string(plan().mostLayers) +
+                    " layers of blended surfaces in a pixel: those nearer to the eye are "
+                    "in order by object only");
                 draw(group, view, SurfaceOrder::backToFront, true);
                 continue;
             }
