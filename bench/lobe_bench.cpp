@@ -1,7 +1,9 @@
 // lobe-bench: each pass of each scene against its floor, both measured in this process, as ratios.
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
-//   lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
+//   lobe-bench fog [--json FILE] [--rounds N] [--backend NAME]      fog, airlight and the order of blended
+//   surfaces lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook
+//   form
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -9,6 +11,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "fog.hpp"
 #include "measure/floor.hpp"
 #include "models.hpp"
 #include "passes/renderer.hpp"
@@ -133,6 +136,25 @@ void runModels(const std::string& backend, const std::string& json, int rounds) 
     writeJson(json, report);
 }
 
+void runFog(const std::string& backend, const std::string& json, int rounds) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
+    std::printf("%s, %s, ns a pixel more than the picture without it, median of %d rounds\n",
+                context->info().renderer.c_str(), context->info().version.c_str(), rounds);
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    for (const FogCost& cost : fogCosts(*context, rounds)) {
+        std::printf("%-40s %8.1f (%.1f to %.1f)   %5.2f x of %s\n", cost.name.c_str(), cost.perPixel,
+                    cost.interval.low, cost.interval.high, cost.ratio, cost.base.c_str());
+        report["results"].push_back({{"name", cost.name},
+                                     {"base", cost.base},
+                                     {"ns_per_pixel", cost.perPixel},
+                                     {"low", cost.interval.low},
+                                     {"high", cost.interval.high},
+                                     {"ratio", cost.ratio}});
+    }
+    writeJson(json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
@@ -141,6 +163,10 @@ int run(int argc, char** argv) {
     models->add_option("--json", json, "write the results here as well");
     models->add_option("--backend", backend, "auto, egl or osmesa");
     models->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
+    CLI::App* fog = app.add_subcommand("fog", "fog, airlight and the order of blended surfaces");
+    fog->add_option("--json", json, "write the results here as well");
+    fog->add_option("--backend", backend, "auto, egl or osmesa");
+    fog->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -149,6 +175,10 @@ int run(int argc, char** argv) {
     app.add_option("--frames", frames, "frames measured a scene")->check(CLI::Range(1, 1000));
     app.add_option("--backend", backend, "auto, egl or osmesa");
     CLI11_PARSE(app, argc, argv);
+    if (fog->parsed()) {
+        runFog(backend, json, rounds);
+        return 0;
+    }
     if (models->parsed()) {
         runModels(backend, json, rounds);
         return 0;
