@@ -43,14 +43,16 @@ void setMetallicRoughness(Material& material, const char* model = kMetallicRough
 }
 
 /// KHR_materials_transmission: what is behind shows through the surface, as through a thin pane.
-void setTransmission(const json& extension, const std::string& property, Document& document, Material& material) {
+void setTransmission(const json& extension, const std::string& property, Document& document,
+                     Material& material) {
     const double factor = extension.value("transmissionFactor", 0.0);
     if (factor == 0.0) {
         return setMetallicRoughness(material);
     }
     setMetallicRoughness(material, kThinTransmission);
     const auto index = static_cast<size_t>(requireBrdf(kThinTransmission).parameterIndex("transmission"));
-    material.values[static_cast<size_t>(requireBrdf(kThinTransmission).valueOffset(static_cast<int>(index)))] =
+    material
+        .values[static_cast<size_t>(requireBrdf(kThinTransmission).valueOffset(static_cast<int>(index)))] =
         factor;
     material.textures[index] = slotIn(extension, "transmissionTexture", property, document);
     if (material.metallicRoughness.roughness > 0.0) {
@@ -117,7 +119,8 @@ Material readMaterial(Document& document, size_t index) {
     } else if (findExtension(object, "KHR_materials_unlit") != nullptr) {
         setUnlit(material);
     } else if (const json* transmission = findExtension(object, "KHR_materials_transmission")) {
-        setTransmission(*transmission, property + ".extensions.KHR_materials_transmission", document, material);
+        setTransmission(*transmission, property + ".extensions.KHR_materials_transmission", document,
+                        material);
     } else {
         setMetallicRoughness(material);
     }

@@ -7,7 +7,8 @@
 namespace lobe {
 namespace {
 
-const gl::Program& programOf(const FrameResources& resources, const PlannedPass& pass, const Variant& variant) {
+const gl::Program& programOf(const FrameResources& resources, const PlannedPass& pass,
+                             const Variant& variant) {
     return resources.programs.get("pass/screen.vert", pass.program, variant.defines, {});
 }
 

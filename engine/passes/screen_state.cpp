@@ -20,8 +20,9 @@ int ScreenInputs::bindView(const gl::Program& program, const Targets& targets, c
     int unit = 0;
     if (program.uniform("uDepth") >= 0) {
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth"
-                                                                                                     : "linear_z"));
+        glBindTexture(
+            GL_TEXTURE_2D,
+            targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
         glBindSampler(0, 0);
         program.set("uDepth", unit++);
     }

@@ -124,7 +124,8 @@ std::string withoutLightSamples(const SceneSummary& scene, const Quality& qualit
 }
 
 std::string withoutAirlight(const SceneSummary& scene, const Quality&) {
-    return scene.fog && scene.pointLights + scene.spotLights > 0 ? "" : "no fog with a light in it";
+    if (!scene.fogScatters) return "no fog that scatters light in the scene";
+    return scene.pointLights + scene.spotLights > 0 ? "" : "no point or spot light in the fog";
 }
 
 std::string withoutBlended(const SceneSummary& scene, const Quality&) {

@@ -89,8 +89,8 @@ void Planner::planAirlight() {
                      "light of " + plural(lamps, "lamp") + " that the fog scatters once, " +
                          plural(plan_.airlightNodes, "node") + " a light, without shadows"};
     if (hasDeferredSurface_) pass.reads.emplace_back(plan_.reversedDepth ? "depth" : "linear_z");
-    for (const auto& [type, count] : {std::pair(LightType::point, scene_.pointLights),
-                                      std::pair(LightType::spot, scene_.spotLights)}) {
+    for (const auto& [type, count] :
+         {std::pair(LightType::point, scene_.pointLights), std::pair(LightType::spot, scene_.spotLights)}) {
         if (count == 0) continue;
         Defines defines;
         airlightDefines(defines, type);

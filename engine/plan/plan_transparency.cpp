@@ -11,6 +11,11 @@ constexpr size_t kMostLayers = 256;
 
 }  // namespace
 
+void Planner::peelDefines(Defines& defines) const {
+    defines["PEELED"] = "1";
+    if (!plan_.reversedDepth) defines["LINEAR_Z"] = "1";
+}
+
 void Planner::forwardDefines(Defines& defines, const SurfaceFeatures& features) const {
     defines = surfaceDefines(features);
     if (scattersLight(features.brdf)) {
@@ -34,8 +39,8 @@ void Planner::forwardDefines(Defines& defines, const SurfaceFeatures& features) 
     }
 }
 
-/// What the forward pass draws into, at once or, where what shows through is coloured, one after the other: OpenGL
-/// 3.3 has two outputs of a shader to blend with for one target only.
+/// What the forward pass draws into, at once or, where what shows through is coloured, one after the other:
+/// OpenGL 3.3 has two outputs of a shader to blend with for one target only.
 std::vector<std::string> Planner::forwardTargets() const {
     if (!contributions_) return {"radiance"};
     std::vector<std::string> targets{"contribution.transparent"};
@@ -65,7 +70,7 @@ void Planner::planForward() {
         forwardDefines(defines, features);
         if (contributions_) defines["CONTRIBUTIONS"] = "1";
         if (features.blended() && scene_.transmits) defines["COLORED_TRANSMITTANCE"] = "1";
-        if (features.blended() && peeled) defines["PEELED"] = "1";
+        if (features.blended() && peeled) peelDefines(defines);
         for (size_t t = 0; t < pass.writes.size(); ++t)
             defines["OUT_" + defineName(pass.writes[t])] = std::to_string(t);
         if (!features.blended() || !apart) {
@@ -85,18 +90,18 @@ void Planner::planForward() {
                             : "forward shading is asked for";
     if (scene_.blended)
         pass.reason += peeled ? ", peeled layer by layer from the farthest, at most " +
-                                    plural(plan_.mostLayers, "layer") + "; what is nearer is drawn object by object"
+                                    plural(plan_.mostLayers, "layer") +
+                                    "; what is nearer is drawn object by object"
                               : ", drawn back to front";
     planPeel(peeled);
     plan_.passes.push_back(pass);
-    if (contributions_ && deferred_)
-        planDim();
+    if (contributions_ && deferred_) planDim();
 }
 
 void Planner::planDim() {
-    PlannedPass pass{"dim",           "pass/dim.frag",
-                     {{}},            {"transmittance"},
-                     {},              "what lies behind blended surfaces is dimmed in each contribution"};
+    PlannedPass pass{"dim", "pass/dim.frag",
+                     {{}},  {"transmittance"},
+                     {},    "what lies behind blended surfaces is dimmed in each contribution"};
     for (const std::string& name : plan_.contributionTargets)
         if (name != "fog" && name != "transparent") pass.writes.push_back("contribution." + name);
     plan_.passes.push_back(pass);
@@ -107,16 +112,20 @@ void Planner::planPeel(bool peeled) {
     if (!peeled)
         return leaveOut("pass", "peel",
                         scene_.blended ? "blended surfaces are sorted by object" : "no blended surface");
-    addChannel("layer", "RG32UI", "depth and triangle of a layer", "twice: the next one is in front of the last");
+    addChannel("layer", "RG32UI", "depth and triangle of a layer",
+               "twice: the next one is in front of the last");
     addChannel("layer_depth", "DEPTH_COMPONENT32F", "depth of a layer", "its fragments alone are shaded");
-    PlannedPass pass{"peel",      "pass/peel.frag", {}, {"depth", "layer"}, {"layer", "layer_depth"},
+    PlannedPass pass{"peel",
+                     "pass/peel.frag",
+                     {},
+                     {"depth", "layer"},
+                     {"layer", "layer_depth"},
                      "finds the blended surfaces' next layer"};
     for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
         const SurfaceFeatures& features = plan_.surfaces[i];
         if (!features.blended()) continue;
         Defines defines = surfaceDefines(features);
-        defines["PEELED"] = "1";
-        if (!plan_.reversedDepth) defines["LINEAR_Z"] = "1";
+        peelDefines(defines);
         pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
     }
     plan_.passes.push_back(pass);

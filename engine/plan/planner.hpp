@@ -109,6 +109,7 @@ private:
     void addFogVariants(PlannedPass& pass, const Defines& defines) const;
     void planFog();
     void planAirlight();
+    void peelDefines(Defines& defines) const;
     void forwardDefines(Defines& defines, const SurfaceFeatures& features) const;
     std::vector<std::string> forwardTargets() const;
     void planForward();

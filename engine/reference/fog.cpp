@@ -16,7 +16,8 @@ FogOnRay fogOnRay(const Scene& scene, const glm::dvec3& origin, const glm::dvec3
     if (fog.scattering == glm::dvec3(0.0)) return result;
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point && light.type != LightType::spot) continue;
-        FogLight source{light.position, light.intensity, light.range, light.direction, light.innerConeAngle, {}};
+        FogLight source{light.position,  light.intensity,      light.range,
+                        light.direction, light.innerConeAngle, {}};
         if (light.type == LightType::spot) source.outerConeAngle = light.outerConeAngle;
         result.radiance += airlight(fog.medium(), source, origin, direction, length);
     }

@@ -170,7 +170,8 @@ void Tracer::State::intersect(const RTCIntersectFunctionNArguments* arguments) {
     if (query.differentials != nullptr)
         footprint = part.mesh.footprint(hit->triangle, query.origin, query.direction, *query.differentials);
     const bool ends = !reader.seenThrough(part.mesh);
-    if (reader.alphaMode(part.mesh) != AlphaMode::blend && reader.coverage(part.mesh, *hit, footprint) == 0.0) return;
+    if (reader.alphaMode(part.mesh) != AlphaMode::blend && reader.coverage(part.mesh, *hit, footprint) == 0.0)
+        return;
     query.hits.emplace_back(*hit, footprint);
     if (!ends) return;
     query.tMax = hit->t;

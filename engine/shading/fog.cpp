@@ -12,8 +12,8 @@
 namespace lobe {
 namespace {
 
-/// Integral over [a, b]: halved until the rule of 16 nodes agrees with itself on both halves, to `allowed` of the
-/// whole.
+/// Integral over [a, b]: halved until the rule of 16 nodes agrees with itself on both halves, to `allowed` of
+/// the whole.
 glm::dvec3 integrate(const std::function<glm::dvec3(double)>& f, double a, double b) {
     static const QuadratureRule rule = gaussLegendre(16);
     const auto panel = [&](double low, double high) {
@@ -73,9 +73,9 @@ double henyeyGreenstein(double cosine, double anisotropy) {
     return (1.0 - g) * (1.0 + g) / (4.0 * glm::pi<double>() * q * std::sqrt(q));
 }
 
-/// With p the place on the ray that is nearest to the light and h its distance, s = p + h tan t makes ds / r^2
-/// equal to dt / h (Kulla and Fajardo, Importance sampling techniques for path tracing in participating media, EGSR
-/// 2012); s + r is p + h tan(t / 2 + pi / 4), and the cosine of scattering -sin t.
+/// With p the place on the ray that is nearest to the light and h its distance, s = p + h tan t makes ds /
+/// r^2 equal to dt / h (Kulla and Fajardo, Importance sampling techniques for path tracing in participating
+/// media, EGSR 2012); s + r is p + h tan(t / 2 + pi / 4), and the cosine of scattering -sin t.
 glm::dvec3 airlight(const FogMedium& fog, const FogLight& light, const glm::dvec3& origin,
                     const glm::dvec3& direction, double length) {
     const glm::dvec3 toLight = light.position - origin;
@@ -104,8 +104,8 @@ glm::dvec3 airlight(const FogMedium& fog, const FogLight& light, const glm::dvec
             if (!(a < b)) continue;
             breaks.push_back(a);
             if (shadow > inner)
-                for (const double edge : {middle - std::acos(inner / shadow) + turn,
-                                          middle + std::acos(inner / shadow) + turn})
+                for (const double edge :
+                     {middle - std::acos(inner / shadow) + turn, middle + std::acos(inner / shadow) + turn})
                     if (edge > a && edge < b) breaks.push_back(edge);
             breaks.push_back(b);
         }

@@ -176,7 +176,8 @@ TEST(TransparencyPlan, ColouredTransmittanceTakesAProgramForEachTarget) {
     addPane(scene, "thin_transmission");
     const SceneSummary summary = summarise(scene);
     EXPECT_TRUE(summary.transmits);
-    EXPECT_EQ(summary.blendedInstances, 2u) << "a pane that lets light through is drawn over what is behind it";
+    EXPECT_EQ(summary.blendedInstances, 2u)
+        << "a pane that lets light through is drawn over what is behind it";
     const FramePlan plan = planOf(scene);
     EXPECT_EQ(plan.pass("forward")->variants.size(), 2u);
     EXPECT_EQ(definesWith(plan, "COLORED_TRANSMITTANCE").size(), 2u);

@@ -19,6 +19,13 @@ gl::Context& context() {
     return *one;
 }
 
+/// Without reversed depth: surfaces' distances are in a channel of their own.
+gl::Context& oldContext() {
+    static const std::unique_ptr<gl::Context> one =
+        gl::Context::create({.backend = gl::Backend::egl, .maskedExtensions = {"GL_ARB_clip_control"}});
+    return *one;
+}
+
 Quality exactQuality(Transparency transparency = Transparency::sorted) {
     Quality quality;
     quality.samples = 1;
@@ -31,15 +38,14 @@ Quality exactQuality(Transparency transparency = Transparency::sorted) {
 }
 
 Picture drawn(const Scene& scene, const Camera& camera, const Quality& quality, bool contributions = false,
-              bool clipControl = true) {
+              gl::Context& on = context()) {
     RenderOptions options;
     options.width = kWidth;
     options.height = kHeight;
     options.quality = quality;
     if (contributions) options.aovs = {Aov::radiance, Aov::contributions};
-    (void)clipControl;
-    context().makeCurrent();
-    Renderer renderer(context());
+    on.makeCurrent();
+    Renderer renderer(on);
     renderer.setScene(std::make_shared<Scene>(scene), options);
     return renderer.render(camera);
 }
@@ -75,8 +81,9 @@ Truth truthOf(const Scene& scene, const Camera& camera) {
             // Rasterisers round vertices to 1/256 pixel.
             const double px = x + 0.5, py = kHeight - y - 0.5, step = 1.5 / 256.0;
             const auto here = triangles(px, py);
-            truth.edge.push_back(triangles(px - step, py - step) != here || triangles(px + step, py - step) != here ||
-                                 triangles(px - step, py + step) != here || triangles(px + step, py + step) != here);
+            truth.edge.push_back(
+                triangles(px - step, py - step) != here || triangles(px + step, py - step) != here ||
+                triangles(px - step, py + step) != here || triangles(px + step, py + step) != here);
         }
     return truth;
 }
@@ -106,7 +113,8 @@ Difference compare(const Image& image, const Truth& truth) {
             const glm::dvec3 total = truth.at(x, y).total();
             for (int c = 0; c < 4; ++c) {
                 const double exact = c == 3 ? truth.at(x, y).coverage : total[c];
-                const double off = std::abs(static_cast<double>(pixel[c]) - exact) / (exact + 0.1 * truth.mean);
+                const double off =
+                    std::abs(static_cast<double>(pixel[c]) - exact) / (exact + 0.1 * truth.mean);
                 if (off <= difference.largest) continue;
                 difference.largest = off;
                 difference.where = "channel " + std::to_string(c) + " of " + std::to_string(x) + ", " +
@@ -117,10 +125,12 @@ Difference compare(const Image& image, const Truth& truth) {
     return difference;
 }
 
-/// Moving by 1/256 pixel and 24-bit numbers in lights, rays and depths change smooth pictures by less.
-constexpr double kAgrees = 1e-3;
+/// Moving by 1/256 pixel and 24-bit numbers in lights, rays and depths change smooth pictures by less: 7e-6
+/// was seen with diffuse surfaces and fog, 2.3e-5 on glossy ones.
+constexpr double kAgrees = 1e-4;
 
-void expectAgreement(const Scene& scene, const Camera& camera, const Quality& quality, double allowed = kAgrees) {
+void expectAgreement(const Scene& scene, const Camera& camera, const Quality& quality,
+                     double allowed = kAgrees) {
     const Truth truth = truthOf(scene, camera);
     ASSERT_GT(truth.mean, 0.0);
     const Picture picture = drawn(scene, camera, quality);
@@ -168,8 +178,10 @@ Scene hall() {
     const glm::dmat4 identity(1.0);
     test::addInstance(scene, test::addQuad(scene, floor, 30.0f),
                       glm::rotate(identity, -std::numbers::pi / 2, glm::dvec3(1, 0, 0)));
-    test::addInstance(scene, test::addSphere(scene, ball), glm::translate(identity, glm::dvec3(-1.0, 1.0, 0.0)));
-    test::addInstance(scene, test::addQuad(scene, floor, 1.5f), glm::translate(identity, glm::dvec3(3, 1, -6)));
+    test::addInstance(scene, test::addSphere(scene, ball),
+                      glm::translate(identity, glm::dvec3(-1.0, 1.0, 0.0)));
+    test::addInstance(scene, test::addQuad(scene, floor, 1.5f),
+                      glm::translate(identity, glm::dvec3(3, 1, -6)));
     scene.lights.push_back(test::directional({0.3, -1, -0.5}, {1.0, 0.9, 0.8}));
     scene.lights.push_back(test::point({1.4, 1.2, 0.5}, {3.0, 2.0, 1.0}));
     scene.lights.push_back(test::point({-1.0, 3.0, -3.0}, {1.0, 2.0, 3.0}, 6.0));
@@ -204,8 +216,7 @@ TEST(FogPicture, FogByHeightIsTheReferences) {
                 scene.fog->heightFalloff = falloff;
                 scene.fog->height = height;
                 SCOPED_TRACE(std::to_string(falloff) + " from " + std::to_string(height));
-                // exp(-1200) over floats: the exponent's rounding, 1200 / 2^24, is the density's.
-                expectAgreement(scene, camera(orthographic), exactQuality(), 2e-3);
+                expectAgreement(scene, camera(orthographic), exactQuality());
             }
 }
 
@@ -288,11 +299,44 @@ TEST(Transparency, PeeledWithForwardShadingAndWithoutOpaqueSurfaces) {
     const Difference forward = compare(drawn(scene, camera(), quality).image, truthOf(scene, camera()));
     EXPECT_LT(forward.largest, kAgrees) << forward.where;
     const Scene alone = panes(Scene{}, false);
-    for (const Transparency transparency : {Transparency::peeled}) {
-        const Difference difference =
-            compare(drawn(alone, camera(), exactQuality(transparency)).image, truthOf(alone, camera()));
-        EXPECT_LT(difference.largest, kAgrees) << difference.where;
-    }
+    const Difference difference =
+        compare(drawn(alone, camera(), exactQuality(Transparency::peeled)).image, truthOf(alone, camera()));
+    EXPECT_LT(difference.largest, kAgrees) << difference.where;
+}
+
+TEST(Transparency, WithoutClipControl) {
+    Scene scene = panes(hall(), true);
+    scene.fog = evenFog(0.15);
+    scene.fog->heightFalloff = 0.4;
+    const Difference difference =
+        compare(drawn(scene, camera(), exactQuality(Transparency::peeled), false, oldContext()).image,
+                truthOf(scene, camera()));
+    EXPECT_LT(difference.largest, kAgrees) << difference.where;
+}
+
+/// Jittered frames: their mean is the reference's over the pixel, and contributions' sum the picture.
+TEST(Transparency, SamplesAverage) {
+    Scene scene = panes(hall(), false);
+    scene.fog = evenFog(0.15);
+    Quality quality = exactQuality(Transparency::peeled);
+    quality.samples = 16;
+    const Image whole = drawn(scene, camera(), quality).image;
+    const Image split = drawn(scene, camera(), quality, true).image;
+    TruthOptions options;
+    options.shadows = false;
+    options.filter = PixelFilter::box;
+    const PixelIntegrator integrator(std::make_shared<Scene>(scene), camera(), kWidth, kHeight, options);
+    double off = 0.0, sum = 0.0;
+    for (int y = 1; y < kHeight; y += 4)
+        for (int x = 1; x < kWidth; x += 4) {
+            const double exact = integrator.at(x, y, {}, 1).total().y;
+            off += std::abs(static_cast<double>(whole.pixel(x, y)[1]) - exact);
+            sum += exact;
+            for (int c = 0; c < 4; ++c)
+                EXPECT_NEAR(whole.pixel(x, y)[c], split.pixel(x, y)[c], 1e-5f) << x << ", " << y;
+        }
+    // Edges are met by one sixteenth of a pixel in three of the sixteen samples' rows.
+    EXPECT_LT(off / sum, 0.02);
 }
 
 TEST(Transparency, ABallSeenThroughItsOwnFront) {
@@ -311,13 +355,15 @@ TEST(Transparency, ABallSeenThroughItsOwnFront) {
     EXPECT_LT(difference.largest, 5e-3) << difference.where;
 }
 
-/// `count` panes one behind the other, in the order of the file from the front or the back, all at one place if asked.
+/// `count` panes one behind the other, in the order of the file from the front or the back, all at one place
+/// if asked.
 Scene stack(int count, bool fromFront, double apart) {
     Scene scene;
     for (int i = 0; i < count; ++i) {
         const int material = test::addMaterial(scene, "unlit");
         Material& pane = scene.materials[static_cast<size_t>(material)];
-        pane.metallicRoughness.baseColor = {i % 3 == 0 ? 0.9 : 0.1, i % 3 == 1 ? 0.9 : 0.1, i % 3 == 2 ? 0.9 : 0.1};
+        pane.metallicRoughness.baseColor = {i % 3 == 0 ? 0.9 : 0.1, i % 3 == 1 ? 0.9 : 0.1,
+                                            i % 3 == 2 ? 0.9 : 0.1};
         pane.alphaMode = AlphaMode::blend;
         pane.alpha = 0.2f;
         const double z = apart * (fromFront ? -i : i);
@@ -342,7 +388,7 @@ TEST(Transparency, TwentyLayersAndLayersAtOnePlace) {
 
 TEST(Transparency, WhatIsBeyondTheBoundIsDrawnSortedAndSaid) {
     // More layers than the bound of 256, each in the order that sorting gives: the picture stays right.
-    const Scene scene = stack(300, true, 0.01);
+    const Scene scene = stack(260, true, 0.01);
     const Picture picture = drawn(scene, camera(), exactQuality(Transparency::peeled));
     ASSERT_EQ(picture.warnings.size(), 1u);
     EXPECT_NE(picture.warnings[0].find("256 layers"), std::string::npos) << picture.warnings[0];

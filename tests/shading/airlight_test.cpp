@@ -71,12 +71,13 @@ double direct(const Sample& sample) {
         [&](double s) {
             const glm::dvec3 fromLight = s * sample.direction - sample.light.position;
             const double r = glm::length(fromLight);
-            double value = distanceAttenuation(r * r, sample.light.range) *
-                           henyeyGreenstein(glm::dot(fromLight / r, -sample.direction), sample.fog.anisotropy) *
-                           std::exp(-sample.fog.extinction.x * (s + r));
+            double value =
+                distanceAttenuation(r * r, sample.light.range) *
+                henyeyGreenstein(glm::dot(fromLight / r, -sample.direction), sample.fog.anisotropy) *
+                std::exp(-sample.fog.extinction.x * (s + r));
             if (sample.light.outerConeAngle)
-                value *= spotAttenuation(glm::dot(fromLight / r, sample.light.axis), sample.light.innerConeAngle,
-                                         *sample.light.outerConeAngle);
+                value *= spotAttenuation(glm::dot(fromLight / r, sample.light.axis),
+                                         sample.light.innerConeAngle, *sample.light.outerConeAngle);
             return sample.fog.scattering.x * value;
         },
         breaks, gaussLegendre(8));
@@ -137,7 +138,8 @@ protected:
         table << ");\n";
         const std::string functions =
             table.str() +
-            "vec3 lit(vec3 light, vec3 direction, float way, float extinction, float g, float inv_range2, vec3 axis,\n"
+            "vec3 lit(vec3 light, vec3 direction, float way, float extinction, float g, float inv_range2, "
+            "vec3 axis,\n"
             "         float scale, float offset)\n"
             "{\n"
             "    AirlightArc arc = airlight_arc(light, direction, way, 17.0 / extinction, inv_range2);\n"
@@ -148,7 +150,8 @@ protected:
             "    do {\n"
             "        AirlightPoint point = airlight_point(arc, NODES[i].x, g);\n"
             "        float cone = scale > 0.0 ? airlight_cone(wedge, point.angle, scale, offset) : 1.0;\n"
-            "        sum += NODES[i].y * point.phase * cone * punctual_window(point.r * point.r, inv_range2)\n"
+            "        sum += NODES[i].y * point.phase * cone * punctual_window(point.r * point.r, "
+            "inv_range2)\n"
             "               * airlight_dimming(vec3(extinction), point.way);\n"
             "    } while (++i < " +
             std::to_string(nodes) +
@@ -167,7 +170,8 @@ protected:
                   {"vec3", "axis"},
                   {"float", "scale"},
                   {"float", "offset"}},
-                 "    result[0].xyz = extinction * lit(light, direction, way, extinction, g, inv_range2, axis, scale, "
+                 "    result[0].xyz = extinction * lit(light, direction, way, extinction, g, inv_range2, "
+                 "axis, scale, "
                  "offset);",
                  1,
                  functions}};
@@ -187,9 +191,9 @@ void addRow(std::vector<float>& inputs, const Sample& sample) {
     put(sample.fog.anisotropy);
     put(inverseRange2(sample.light.range));
     put3(sample.light.axis);
-    const SpotScaleOffset cone = sample.light.outerConeAngle
-                                     ? spotScaleOffset(sample.light.innerConeAngle, *sample.light.outerConeAngle)
-                                     : SpotScaleOffset{0.0, 0.0};
+    const SpotScaleOffset cone = sample.light.outerConeAngle ? spotScaleOffset(sample.light.innerConeAngle,
+                                                                               *sample.light.outerConeAngle)
+                                                             : SpotScaleOffset{0.0, 0.0};
     put(cone.scale);
     put(cone.offset);
 }
@@ -232,22 +236,22 @@ TEST_P(AirlightGlsl, NodesConvergeToTheTwin) {
         double before = kInfinity;
         for (const int nodes : {2, 4, 8, 16, 64}) {
             const Errors errors = errorsOf(evaluator(nodes), samples, exact);
-            std::printf("airlight of %s lights, %2d nodes: mean %.1e, largest %.1e\n", spot ? "spot" : "point", nodes,
-                        errors.mean, errors.largest);
+            std::printf("airlight of %s lights, %2d nodes: mean %.1e, largest %.1e\n",
+                        spot ? "spot" : "point", nodes, errors.mean, errors.largest);
             EXPECT_LT(errors.mean, before);
             before = errors.mean;
         }
-        // What is left is rounding: of the ray's distance from the light, 2^-24 of the light's distance, here up to
-        // 1100 times that; and, of spots, the kink where the inner cone begins.
+        // What is left is rounding: of the ray's distance from the light, 2^-24 of the light's distance, here
+        // up to 1100 times that; and, of spots, the kink where the inner cone begins.
         EXPECT_LT(before, spot ? 2e-4 : 1e-5);
     }
 }
 
 TEST_P(AirlightGlsl, EndsOfEverything) {
     std::vector<float> inputs;
-    for (const glm::dvec3& position : {glm::dvec3(0, 0, 0), glm::dvec3(0, 0, 5), glm::dvec3(0, 0, -5),
-                                       glm::dvec3(1e-30, 0, 0), glm::dvec3(1e-9, 0, 1), glm::dvec3(1e15, 0, 1e15),
-                                       glm::dvec3(0, 1e6, 3)})
+    for (const glm::dvec3& position :
+         {glm::dvec3(0, 0, 0), glm::dvec3(0, 0, 5), glm::dvec3(0, 0, -5), glm::dvec3(1e-30, 0, 0),
+          glm::dvec3(1e-9, 0, 1), glm::dvec3(1e15, 0, 1e15), glm::dvec3(0, 1e6, 3)})
         for (const double extinction : {1e-30, 1e-6, 1.0, 1e6, 1e30})
             for (const double length : {0.0, 1e-9, 1.0, 1e15, kInfinity})
                 for (const double g : {-0.999, 0.0, 0.999})

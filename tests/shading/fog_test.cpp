@@ -1,4 +1,5 @@
-/// Fog: GLSL against the twins, the twins against integrals, from no fog to a wall and from the eye to infinity.
+/// Fog: GLSL against the twins, the twins against integrals, from no fog to a wall and from the eye to
+/// infinity.
 #include "shading/fog.hpp"
 
 #include <gtest/gtest.h>
@@ -27,24 +28,26 @@ protected:
         return evaluator("fog_phi", {{"float", "x"}}, "    result[0].xy = vec2(fog_phi(x), fog_opacity(x));");
     }
     harness::Evaluator even() const {
-        return evaluator("fog_depth", {{"float", "extinction"}, {"float", "way"}},
-                         "    vec3 depth = fog_depth(vec3(extinction), way);\n"
-                         "    result[0] = vec4(depth.x, fog_transmittance(depth).x, fog_opacity(depth).x, 0.0);");
+        return evaluator(
+            "fog_depth", {{"float", "extinction"}, {"float", "way"}},
+            "    vec3 depth = fog_depth(vec3(extinction), way);\n"
+            "    result[0] = vec4(depth.x, fog_transmittance(depth).x, fog_opacity(depth).x, 0.0);");
     }
     harness::Evaluator high() const {
-        return evaluator("fog_depth_by_height",
-                         {{"float", "log_density"}, {"float", "slope"}, {"float", "way"}},
-                         "    vec3 depth = fog_depth_by_height(vec3(log_density), slope, way);\n"
-                         "    result[0] = vec4(depth.x, fog_transmittance(depth).x, fog_opacity(depth).x, 0.0);");
+        return evaluator(
+            "fog_depth_by_height", {{"float", "log_density"}, {"float", "slope"}, {"float", "way"}},
+            "    vec3 depth = fog_depth_by_height(vec3(log_density), slope, way);\n"
+            "    result[0] = vec4(depth.x, fog_transmittance(depth).x, fog_opacity(depth).x, 0.0);");
     }
 };
 
 TEST_P(FogGlsl, MeanAndOpacityKeepTheirDigits) {
     Pcg32 random(5);
-    std::vector<float> inputs{0.0f, 0.49999997f, 0.5f, 1e-38f, 86.9f, 87.1f, 1e30f,
-                              std::numeric_limits<float>::infinity()};
+    std::vector<float> inputs{0.0f,  0.49999997f, 0.5f,  1e-38f,
+                              86.9f, 87.1f,       1e30f, std::numeric_limits<float>::infinity()};
     for (int i = 0; i < test::tableScale(20000); ++i)
-        inputs.push_back(static_cast<float>(i % 3 == 0 ? random.uniform(0.0, 2.0) : random.logUniform(1e-30, 1e10)));
+        inputs.push_back(
+            static_cast<float>(i % 3 == 0 ? random.uniform(0.0, 2.0) : random.logUniform(1e-30, 1e10)));
     const harness::ResultTable table = mean().evaluate(inputs);
     double worstMean = 0.0, worstOpacity = 0.0;
     for (size_t i = 0; i < inputs.size(); ++i) {
@@ -57,7 +60,8 @@ TEST_P(FogGlsl, MeanAndOpacityKeepTheirDigits) {
             worstOpacity = std::max(
                 worstOpacity, std::abs(static_cast<double>(table.row(i)[1]) - fogOpacity(x)) / fogOpacity(x));
     }
-    // Beyond 0.5: the error of e^-x, 2.5e-7 of at most 0.61, over 0.39, and three roundings. Below: the series.
+    // Beyond 0.5: the error of e^-x, 2.5e-7 of at most 0.61, over 0.39, and three roundings. Below: the
+    // series.
     std::printf("fog_phi: %.2g, fog_opacity: %.2g\n", worstMean, worstOpacity);
     EXPECT_LT(worstMean, 2.5e-7 * 0.61 / 0.39 + 4 * kFloatRounding);
     EXPECT_LT(worstOpacity, 2.5e-7 * 0.61 / 0.39 + 4 * kFloatRounding);
@@ -72,7 +76,8 @@ TEST_P(FogGlsl, EvenFogFromNoneToAWall) {
             inputs.insert(inputs.end(), {static_cast<float>(extinction), static_cast<float>(way)});
     const harness::ResultTable table = even().evaluate(inputs);
     for (size_t i = 0; i < table.rows(); ++i) {
-        const auto extinction = static_cast<double>(inputs[2 * i]), way = static_cast<double>(inputs[2 * i + 1]);
+        const auto extinction = static_cast<double>(inputs[2 * i]),
+                   way = static_cast<double>(inputs[2 * i + 1]);
         const double depth = fogOpticalDepth({glm::dvec3(extinction)}, 3.0, 0.7, way).x;
         const double transmittance = static_cast<double>(table.row(i)[1]),
                      opacity = static_cast<double>(table.row(i)[2]);
@@ -97,7 +102,8 @@ TEST_P(FogGlsl, FogByHeightAgreesOverAllScales) {
     double worst = 0.0;
     size_t compared = 0;
     for (size_t i = 0; i < table.rows(); ++i) {
-        const auto logDensity = static_cast<double>(inputs[3 * i]), slope = static_cast<double>(inputs[3 * i + 1]),
+        const auto logDensity = static_cast<double>(inputs[3 * i]),
+                   slope = static_cast<double>(inputs[3 * i + 1]),
                    way = static_cast<double>(inputs[3 * i + 2]);
         const double transmittance = static_cast<double>(table.row(i)[1]),
                      opacity = static_cast<double>(table.row(i)[2]);
@@ -119,7 +125,8 @@ TEST_P(FogGlsl, FogByHeightAgreesOverAllScales) {
         ASSERT_NEAR(opacity, fogOpacity(depth), (unit + 8e-7) * fogOpacity(depth));
         ++compared;
     }
-    std::printf("fog by height: worst %.2f of the allowance, %zu of %zu compared\n", worst, compared, table.rows());
+    std::printf("fog by height: worst %.2f of the allowance, %zu of %zu compared\n", worst, compared,
+                table.rows());
     EXPECT_GT(compared, table.rows() / 2);
 }
 
@@ -129,11 +136,14 @@ TEST_P(FogGlsl, MonotoneAndContinuousAlongARay) {
         std::vector<float> inputs;
         constexpr int kSteps = 2000;
         for (int i = 0; i <= kSteps; ++i)
-            inputs.insert(inputs.end(), {std::log(0.7f), slope, static_cast<float>(std::exp2(0.02 * i - 20.0))});
+            inputs.insert(inputs.end(),
+                          {std::log(0.7f), slope, static_cast<float>(std::exp2(0.02 * i - 20.0))});
         const harness::ResultTable table = high().evaluate(inputs);
         for (size_t i = 1; i < table.rows(); ++i) {
-            const auto before = static_cast<double>(table.row(i - 1)[1]), after = static_cast<double>(table.row(i)[1]);
-            const auto growth = static_cast<double>(table.row(i)[0]) - static_cast<double>(table.row(i - 1)[0]);
+            const auto before = static_cast<double>(table.row(i - 1)[1]),
+                       after = static_cast<double>(table.row(i)[1]);
+            const auto growth =
+                static_cast<double>(table.row(i)[0]) - static_cast<double>(table.row(i - 1)[0]);
             ASSERT_LE(after, before + 4.0 * kFloatRounding) << slope << " at " << inputs[3 * i + 2];
             // T changes by no more than the depth.
             ASSERT_LE(before - after, std::abs(growth) + 6e-7) << slope << " at " << inputs[3 * i + 2];
@@ -151,8 +161,8 @@ TEST_P(FogGlsl, EndsOfEverything) {
     const harness::ResultTable table = high().evaluate(inputs);
     for (size_t i = 0; i < table.rows(); ++i) {
         const float transmittance = table.row(i)[1], opacity = table.row(i)[2];
-        const std::string where = std::to_string(inputs[3 * i]) + ", " + std::to_string(inputs[3 * i + 1]) + ", " +
-                                  std::to_string(inputs[3 * i + 2]);
+        const std::string where = std::to_string(inputs[3 * i]) + ", " + std::to_string(inputs[3 * i + 1]) +
+                                  ", " + std::to_string(inputs[3 * i + 2]);
         ASSERT_TRUE(transmittance >= 0.0f && transmittance <= 1.0f) << where;
         ASSERT_TRUE(opacity >= 0.0f && opacity <= 1.0f) << where;
         ASSERT_NEAR(transmittance + opacity, 1.0f, 1e-6f) << where;
@@ -199,8 +209,8 @@ TEST(FogTwin, EndsOfEverything) {
                     for (const double length : {0.0, 1e-9, 1.0, 1e18, kInfinity}) {
                         const glm::dvec3 t =
                             fogTransmittance({glm::dvec3(extinction), falloff, 0.0}, start, rise, length);
-                        ASSERT_TRUE(t.x >= 0.0 && t.x <= 1.0)
-                            << extinction << ", " << falloff << ", " << start << ", " << rise << ", " << length;
+                        ASSERT_TRUE(t.x >= 0.0 && t.x <= 1.0) << extinction << ", " << falloff << ", "
+                                                              << start << ", " << rise << ", " << length;
                     }
 }
 
