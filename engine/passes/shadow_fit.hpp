@@ -60,6 +60,9 @@ ShadowProjection fitSpot(const Light& light, double sceneRadius, int size, const
 ShadowProjection cubeFace(const glm::dvec3& position, int face, double sceneRadius, int size,
                           const ShadowFilter& filter);
 
+/// The least depth along the map's axis of what casts into a perspective map, m; infinite where nothing does.
+double nearestCaster(const Scene& scene, const ShadowProjection& map, int size);
+
 inline constexpr int kMostCascades = 4;
 
 /// A directional light's maps. One of `size` texels a side; or, where that would be coarser on the screen,
