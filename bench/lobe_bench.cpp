@@ -1,22 +1,19 @@
 // lobe-bench: each pass of each scene against its floor, both measured in this process, as ratios.
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
-//   lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
-//   lobe-bench shadow-maps [--json FILE] [--rounds N] [--backend NAME]   shadow maps by size and taps
+//   lobe-bench COMMAND [--json FILE] [--rounds N] ...   shadows, lights with a body, fog, models: see --help
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "commands.hpp"
 #include "measure/floor.hpp"
-#include "models.hpp"
 #include "passes/renderer.hpp"
 #include "plan/summary.hpp"
 #include "scene/load.hpp"
 #include "scenes.hpp"
-#include "shadow_maps.hpp"
 
 namespace lobe::bench {
 namespace {
@@ -101,80 +98,10 @@ nlohmann::json toJson(const Result& result) {
             {"passes", passes}};
 }
 
-void writeJson(const std::string& file, const nlohmann::json& report) {
-    if (!file.empty()) writeAtomically(file, report.dump(2) + "\n");
-}
-
-void print(const ModelTime& time) {
-    std::printf("%-28s %8.1f %10.1f %8.1f", time.name.c_str(), time.model, time.textbook, time.floor);
-    if (time.ratio > 0.0)
-        std::printf(" %7.2f", time.ratio);
-    else
-        std::printf(" %7s", "-");
-    std::printf(" %9.2f\n", 100.0 * time.astray);
-    std::fflush(stdout);
-}
-
-void runModels(const std::string& backend, const std::string& json, int rounds) {
-    const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
-    std::printf("%s, %s, ns an evaluation on %s, median of %d rounds, floor taken off\n",
-                context->info().renderer.c_str(), context->info().version.c_str(),
-                context->info().software ? "one core" : "the GPU", rounds);
-    std::printf("%-28s %8s %10s %8s %7s %9s\n", "model", "model", "textbook", "floor", "ratio", "astray %");
-    nlohmann::json report = {
-        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
-    for (const ModelTime& time :
-         modelTimes(context->info(), rounds, [](const ModelTime& done) { print(done); })) {
-        report["results"].push_back({{"model", time.name},
-                                     {"ns", time.model},
-                                     {"textbook_ns", time.textbook},
-                                     {"floor_ns", time.floor},
-                                     {"textbook_astray", time.astray}});
-        if (time.ratio > 0.0) report["results"].back()["ratio"] = time.ratio;
-    }
-    writeJson(json, report);
-}
-
-void runShadowMaps(const std::string& backend, const std::string& json, int rounds,
-                   const std::vector<int>& resolution) {
-    const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
-    std::printf("%s, %s, %dx%d, least of %d rounds; look and draw in unshadowed lights of the type\n",
-                context->info().renderer.c_str(), context->info().version.c_str(), resolution[0],
-                resolution[1], rounds);
-    std::printf("%-12s %5s %5s %7s %7s %9s %9s\n", "light", "size", "taps", "look", "draw", "error %",
-                "wrong %");
-    nlohmann::json report = {
-        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
-    const auto print = [](const ShadowMapResult& r) {
-        std::printf("%-12s %5d %5d %7.2f %7.2f %9.3f %9.3f\n", r.light.c_str(), r.size, r.taps, r.lookUp,
-                    r.draw, 100.0 * r.error, 100.0 * r.wrong);
-        std::fflush(stdout);
-    };
-    for (const ShadowMapResult& r : shadowMapResults(*context, resolution[0], resolution[1], rounds, print))
-        report["results"].push_back({{"light", r.light},
-                                     {"size", r.size},
-                                     {"taps", r.taps},
-                                     {"look_up", r.lookUp},
-                                     {"draw", r.draw},
-                                     {"error", r.error},
-                                     {"wrong", r.wrong}});
-    writeJson(json, report);
-}
-
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
-    int rounds = 7;
-    CLI::App* models = app.add_subcommand("models", "every model's GLSL against its textbook form");
-    models->add_option("--json", json, "write the results here as well");
-    models->add_option("--backend", backend, "auto, egl or osmesa");
-    models->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
-    CLI::App* maps = app.add_subcommand("shadow-maps", "cost and error of shadow maps by size and taps");
-    std::vector<int> mapsResolution = {640, 360};
-    maps->add_option("--json", json, "write the results here as well");
-    maps->add_option("--backend", backend, "auto, egl or osmesa");
-    maps->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
-    maps->add_option("--resolution", mapsResolution, "W,H")->delimiter(',')->expected(2);
+    addCommands(app);
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -183,15 +110,7 @@ int run(int argc, char** argv) {
     app.add_option("--frames", frames, "frames measured a scene")->check(CLI::Range(1, 1000));
     app.add_option("--backend", backend, "auto, egl or osmesa");
     CLI11_PARSE(app, argc, argv);
-    if (models->parsed()) {
-        runModels(backend, json, rounds);
-        return 0;
-    }
-
-    if (maps->parsed()) {
-        runShadowMaps(backend, json, rounds, mapsResolution);
-        return 0;
-    }
+    if (!app.get_subcommands().empty()) return 0;
 
     const auto context = gl::Context::create({.backend = gl::parseBackend(backend)});
     std::printf("%s, %s, %dx%d, passes: least of %d frames, frame: median, one sample a pixel\n",

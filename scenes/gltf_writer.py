@@ -109,12 +109,15 @@ class Gltf:
         self.json["meshes"].append({"primitives": list(primitives)})
         return len(self.json["meshes"]) - 1
 
-    def material(self, name, base=(1, 1, 1), metallic=0.0, roughness=0.5, alpha=1.0, brdf=None, **more):
+    def material(self, name, base=(1, 1, 1), metallic=0.0, roughness=0.5, alpha=1.0, brdf=None, transmission=0.0, **more):
         entry = {"name": name, "pbrMetallicRoughness": {"baseColorFactor": [*base, alpha], "metallicFactor": metallic,
                                                         "roughnessFactor": roughness}, **more}
         if brdf:
             self.extension("LOBE_materials_brdf")
             entry["extensions"] = {"LOBE_materials_brdf": brdf}
+        if transmission:
+            self.extension("KHR_materials_transmission")
+            entry["extensions"] = {"KHR_materials_transmission": {"transmissionFactor": transmission}}
         self.json["materials"].append(entry)
         return len(self.json["materials"]) - 1
 
@@ -161,9 +164,16 @@ class Gltf:
         self.node(translation=list(position), rotation=look_rotation(toward),
                   extensions={"EXT_lights_area": {"light": len(self.area_lights) - 1}})
 
+    def scene_extension(self, name, **content):
+        self.extension(name)
+        self.json["scenes"][0].setdefault("extensions", {})[name] = content
+
     def ambient(self, radiance):
-        self.extension("LOBE_ambient")
-        self.json["scenes"][0]["extensions"] = {"LOBE_ambient": {"radiance": list(radiance)}}
+        self.scene_extension("LOBE_ambient", radiance=list(radiance))
+
+    def fog(self, extinction, radiance, **more):
+        """extinction: 1/m; more: heightFalloff, height, scattering, anisotropy."""
+        self.scene_extension("LOBE_fog", extinction=list(extinction), radiance=list(radiance), **more)
 
     def camera(self, position, target, degrees=40, near=0.05):
         self.json["cameras"].append({"type": "perspective", "name": "main",

@@ -527,6 +527,7 @@ MODELS = {
     "measured": {"file": "data/metallic_paint.binary"},
     "metallic_roughness": {"baseColor": [0.9, 0.55, 0.2], "metallic": 1.0, "roughness": 0.45},
     "oren_nayar": {"diffuse": [0.7, 0.66, 0.6], "sigma": 0.6},
+    "thin_transmission": {"baseColor": [0.35, 0.6, 0.85], "metallic": 0.0, "roughness": 0.3},
     "ashikhmin_shirley": {"diffuse": [0.08, 0.3, 0.12], "specular": [0.12] * 3, "nu": 600, "nv": 30},
 }
 
@@ -537,7 +538,7 @@ def models():
     positions, normals, uvs, indices = sphere(28)
     shape = g.geometry(positions, normals, indices, [uvs])
     names = sorted(path.stem for path in (HERE / "../shaders/glsl/brdf").glob("*.glsl"))
-    columns = 5
+    columns = 6
     rows = -(-len(names) // columns)
     for i, name in enumerate(names):
         material = g.material(name, brdf={"model": name, **MODELS.get(name, {})})
@@ -603,6 +604,190 @@ def interior():
     return g
 
 
+def balls_of_models():
+    """A ball for every model on the ground, five a row in the order of their names, the first row at the back."""
+    g = Gltf()
+    positions, normals, uvs, indices = sphere(28)
+    shape = g.geometry(positions, normals, indices, [uvs])
+    for i, name in enumerate(sorted(path.stem for path in (HERE / "../shaders/glsl/brdf").glob("*.glsl"))):
+        parameters = dict(MODELS.get(name, {}))
+        if "file" in parameters:
+            parameters["file"] = pathlib.Path(parameters["file"]).name  # beside the scene: paths may not leave its folder
+        material = g.material(name, brdf={"model": name, **parameters})
+        g.node(name=name, mesh=g.mesh({**shape, "material": material}), scale=[0.42] * 3,
+               translation=[1.1 * (i % 5 - 2), 0.42, 1.2 * (i // 5 - 1)])
+    place(g, ground(5), g.material("ground", brdf={"model": "lambert", "diffuse": [0.3, 0.31, 0.33]}), uvs=False)
+    g.camera((0, 3.0, 5.6), (0, 0.25, -0.1), 40)
+    return g
+
+
+def rect_light():
+    g = balls_of_models()
+    g.area_light("rect", 9.0, 0.8, (-1.3, 2.4, 1.6), (0.45, -1, -0.6), aspect=2)
+    return g
+
+
+def disk_light():
+    g = balls_of_models()
+    g.area_light("disk", 14.0, 1.1, (1.6, 2.4, 1.4), (-0.5, -1, -0.55))
+    return g
+
+
+def sphere_light():
+    g = balls_of_models()
+    g.light("point", 9.0, position=(-0.9, 2.2, 1.9), shape={"shape": "sphere", "radius": 0.35})
+    return g
+
+
+def tube_light():
+    g = balls_of_models()
+    g.light("point", 8.0, position=(0, 1.9, 1.9), shape={"shape": "tube", "radius": 0.05, "length": 3.0})
+    return g
+
+
+def shadow_stage(g):
+    """Casters of every kind on a floor: thin, round, pierced, one that touches the floor and one that floats."""
+    place(g, ground(6), g.material("floor", (0.66, 0.65, 0.62), 0.0, 0.9), uvs=False)
+    place(g, box(0.8, 1.6, 0.8), g.material("block", (0.55, 0.32, 0.2), 0.0, 0.7), translation=(-1.7, 0.8, -0.9), rotation=axis_rotation((0, 1, 0), 30),
+          uvs=False)
+    place(g, sphere(40, 0.6), g.material("ball", (0.2, 0.4, 0.6), 0.0, 0.35), translation=(0.1, 0.6, 0.2), uvs=False)
+    place(g, sphere(24, 0.25), g.material("small ball", brdf={"model": "ward", "diffuse": [0.4, 0.1, 0.1], "specular": [0.15] * 3, "alpha": 0.2}),
+          translation=(1.2, 1.3, 0.1), uvs=False)
+    post = g.material("post", (0.5, 0.5, 0.5), 0.0, 0.5)
+    for i in range(4):
+        place(g, box(0.05, 1.5, 0.05), post, translation=(1.0 + 0.35 * i, 0.75, -1.2), uvs=False)
+    place(g, box(1.2, 0.05, 0.05), post, translation=(1.52, 1.52, -1.2), uvs=False)
+    g.camera((0.4, 2.6, 5.4), (0.1, 0.5, -0.2), 38)
+
+
+def shadow_directional():
+    """Two suns, one of them low."""
+    g = Gltf()
+    shadow_stage(g)
+    g.light("directional", 2.2, (1.0, 0.95, 0.85), toward=(0.6, -0.8, -0.35))
+    g.light("directional", 0.8, (0.6, 0.75, 1.0), toward=(-1.0, -0.28, 0.12))
+    return g
+
+
+def shadow_point():
+    """A point light among the things, one with a range, and one that casts no shadows."""
+    g = Gltf()
+    shadow_stage(g)
+    g.light("point", 7.0, (1.0, 0.85, 0.6), (-0.6, 1.5, 1.3))
+    g.light("point", 6.0, (0.5, 0.7, 1.0), (2.6, 2.2, 0.4), range=5.0)
+    g.light("point", 1.2, (1.0, 1.0, 1.0), (0.0, 4.0, 3.0))
+    g.extension("LOBE_shadow")
+    g.json["nodes"][-1]["extensions"]["LOBE_shadow"] = {"cast": False}
+    return g
+
+
+def shadow_spot():
+    """Three spots whose cones cross."""
+    g = Gltf()
+    shadow_stage(g)
+    g.light("spot", 70.0, (1.0, 0.4, 0.3), (-3.5, 3.4, 2.2), (0.75, -0.75, -0.5), cone=(12, 20))
+    g.light("spot", 70.0, (0.35, 1.0, 0.45), (3.4, 3.4, 2.2), (-0.7, -0.75, -0.55), cone=(19, 20))
+    g.light("spot", 60.0, (0.4, 0.55, 1.0), (0.4, 4.5, -2.6), (0, -1, 0.55), cone=(2, 24))
+    return g
+
+
+def shadow_fence():
+    """Alpha-masked wire and a leaf, and blended panes, before a light of each type."""
+    g = Gltf()
+    shadow_stage(g)
+    wire = g.texture(png(64, 64, lambda x, y: (120, 125, 120, 255 if min((x + y) % 32, (x - y) % 32) < 5 else 0), True))
+    mesh = g.material("wire", roughness=0.5, alphaMode="MASK", alphaCutoff=0.5, doubleSided=True)
+    g.json["materials"][mesh]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": wire}
+    positions, normals, uvs, indices = upright(1.6, 0.7)
+    place(g, (positions, normals, [(u * 6.4, v * 2.8) for u, v in uvs], indices), mesh, translation=(-0.4, 0.7, 1.5), rotation=axis_rotation((0, 1, 0), -14))
+    leaf = g.texture(png(32, 32, lambda x, y: (60, 150, 50, 255 * max(0, 1 - math.hypot(x - 15.5, y - 15.5) / 15)), True), wrapS=33071, wrapT=33071)
+    cut = g.material("leaf", roughness=0.6, alphaMode="MASK", alphaCutoff=0.4, doubleSided=True)
+    g.json["materials"][cut]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": leaf}
+    place(g, upright(0.5, 0.5), cut, translation=(2.1, 1.6, 0.9), rotation=axis_rotation((1, 0.2, 0), -60))
+    for i, (x, color, alpha) in enumerate(((-2.6, (0.9, 0.5, 0.1), 0.6), (-2.1, (0.1, 0.4, 0.9), 0.3))):
+        pane = g.material(f"pane {i}", color, 0.0, 0.3, alpha, alphaMode="BLEND", doubleSided=True)
+        place(g, upright(0.5, 0.6), pane, uvs=False, translation=(x, 0.65, 0.6 - 0.5 * i), rotation=axis_rotation((0, 1, 0), 40))
+    g.light("directional", 1.4, (1.0, 0.95, 0.85), toward=(0.35, -0.8, -0.75))
+    g.light("point", 4.0, (1.0, 0.7, 0.45), (-1.4, 1.6, 2.9))
+    g.light("spot", 50.0, (0.5, 0.7, 1.0), (3.6, 3.2, 2.6), (-0.7, -0.65, -0.6), cone=(14, 24))
+    return g
+
+
+# Fog, and surfaces that are seen through.
+
+def colonnade(g):
+    """Two rows of pillars that lead away, with a ball before them."""
+    place(g, ground(60, 2), floor_material(g), translation=(0, 0, -40))
+    stone = g.material("stone", (0.62, 0.58, 0.52), 0.0, 0.8)
+    for i in range(12):
+        for side in (-1, 1):
+            place(g, box(0.6, 3.2, 0.6), stone, translation=(side * 2.0, 1.6, 1.0 - 3.0 * i), uvs=False)
+    place(g, sphere(32, 0.7), g.material("ball", (0.75, 0.2, 0.12), 0.0, 0.35), translation=(0.2, 0.7, -1.5), uvs=False)
+    g.light("directional", 2.6, (1.0, 0.95, 0.85), toward=(-0.5, -0.8, -0.35))
+    g.ambient((0.16, 0.18, 0.2))
+    g.camera((0, 1.7, 5.0), (0, 1.45, -5), 50)
+
+
+def even_fog():
+    g = Gltf()
+    colonnade(g)
+    g.fog((0.06, 0.055, 0.05), (0.5, 0.56, 0.62))
+    return g
+
+
+def height_fog():
+    g = Gltf()
+    colonnade(g)
+    g.fog((0.35, 0.33, 0.3), (0.5, 0.56, 0.62), heightFalloff=1.6, height=0)
+    return g
+
+
+def airlight():
+    """A lamp post, two spots and a lantern in haze at night."""
+    g = Gltf()
+    place(g, ground(30, 1), floor_material(g), translation=(0, 0, -10))
+    stone = g.material("stone", (0.62, 0.58, 0.52), 0.0, 0.8)
+    for x, z in ((-2.6, -3), (2.6, -3), (-2.6, -7), (2.6, -7)):
+        place(g, box(0.5, 3.0, 0.5), stone, translation=(x, 1.5, z), uvs=False)
+    place(g, sphere(32, 0.6), g.material("ball", (0.3, 0.45, 0.7), 0.0, 0.3), translation=(-0.6, 0.6, -2.0), uvs=False)
+    g.light("spot", 90.0, (1.0, 0.85, 0.6), position=(-2.2, 4.4, -3.4), toward=(0.62, -1, 0.3), cone=(9, 16))
+    g.light("spot", 70.0, (0.55, 0.7, 1.0), position=(2.4, 4.2, -5.0), toward=(-0.5, -1, 0.1), cone=(4, 10))
+    g.light("point", 5.0, (1.0, 0.55, 0.25), position=(1.5, 1.4, -1.8))
+    g.ambient((0.012, 0.014, 0.02))
+    g.fog((0.07, 0.07, 0.07), (0.004, 0.005, 0.008), scattering=[0.06, 0.06, 0.06], anisotropy=0.35)
+    g.camera((0.3, 1.6, 4.2), (0, 1.5, -4), 50)
+    return g
+
+
+def panes():
+    """Panes that cut each other and a ball, which no order of whole objects gets right: --transparency peeled."""
+    g = Gltf()
+    place(g, ground(12, 1), floor_material(g))
+    place(g, sphere(40, 0.8), g.material("ball", (0.85, 0.8, 0.7), 0.0, 0.4), translation=(0, 1.1, 0), uvs=False)
+    for name, color, angle, alpha in (("red", (0.9, 0.12, 0.08), 20, 0.5), ("green", (0.1, 0.75, 0.2), 80, 0.45), ("blue", (0.12, 0.25, 0.9), 140, 0.55)):
+        pane = g.material(name, color, 0.0, 0.25, alpha, alphaMode="BLEND", doubleSided=True)
+        place(g, upright(1.5, 1.05), pane, translation=(0, 1.1, 0), rotation=axis_rotation((0, 1, 0), angle), uvs=False)
+    shell = g.material("shell", (0.9, 0.75, 0.2), 0.0, 0.3, 0.35, alphaMode="BLEND", doubleSided=True)
+    place(g, sphere(32, 0.45), shell, translation=(1.6, 0.46, 1.1), uvs=False)
+    studio(g)
+    g.camera((0.8, 2.3, 5.0), (0.1, 0.9, 0), 38)
+    return g
+
+
+def glass():
+    """Coloured panes without thickness, one behind the other and across (KHR_materials_transmission)."""
+    g = Gltf()
+    place(g, ground(12, 1), floor_material(g))
+    place(g, sphere(40, 0.7), g.material("ball", (0.85, 0.82, 0.78), 0.0, 0.5), translation=(0, 0.7, -0.8), uvs=False)
+    place(g, sphere(40, 0.45), g.material("gold", (1.0, 0.77, 0.34), 1.0, 0.3), translation=(1.3, 0.45, -0.4), uvs=False)
+    for name, color, x, angle in (("ruby", (0.95, 0.15, 0.12), -0.55, 12), ("amber", (0.98, 0.7, 0.15), 0.35, -25), ("emerald", (0.2, 0.85, 0.4), 0.15, 55)):
+        pane = g.material(name, color, 0.0, 0.08, transmission=0.92, doubleSided=True)
+        place(g, upright(0.75, 0.8), pane, translation=(x, 0.82, 0.7), rotation=axis_rotation((0, 1, 0), angle), uvs=False)
+    studio(g)
+    g.camera((0.4, 1.5, 4.4), (0.1, 0.75, 0), 38)
+    return g
+
+
 def extreme():
     shiny = {"model": "blinn_phong", "diffuse": [0.2] * 3, "specular": [0.8] * 3, "shininess": 1e6, "normalization": "energy"}
     yield "roughness_0", ball_scene(lambda g: g.material("mirror-like", (0.9, 0.9, 0.9), 1.0, 0.0))
@@ -649,13 +834,19 @@ def extreme():
 
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
-    for part in ("extreme", "data", "lights"):
+    for part in ("extreme", "data", "lights", "fog"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    merl_table(folder / "data/metallic_paint.binary", (32, 24), metallic_paint)
+    for part in ("data", "lights"):
+        merl_table(folder / part / "metallic_paint.binary", (32, 24), metallic_paint)
     for name, make in (("white_plane", white_plane), ("spheres", spheres), ("lights", lights), ("teapot", teapots), ("textured", textured),
                        ("blend", blend), ("many_lights", many_lights), ("animated", animated), ("vases", vases),
                        ("teapot_normals", teapot_normals), ("models", models), ("lights/soft_light", soft_light),
-                       ("lights/interior", interior)):
+                       ("lights/interior", interior), ("lights/rect", rect_light), ("lights/disk", disk_light),
+                       ("lights/sphere", sphere_light), ("lights/tube", tube_light),
+                       ("lights/shadow_directional", shadow_directional), ("lights/shadow_point", shadow_point),
+                       ("lights/shadow_spot", shadow_spot), ("lights/shadow_fence", shadow_fence),
+                       ("fog/even", even_fog), ("fog/height", height_fog),
+                       ("fog/airlight", airlight), ("panes", panes), ("glass", glass)):
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme():
         scene.write(folder / "extreme" / f"{name}.gltf")

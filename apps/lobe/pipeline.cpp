@@ -125,6 +125,8 @@ public:
             job.outcome.renderMs = picture.milliseconds;
             job.outcome.passes = std::move(picture.passTimes);
             job.image = std::move(picture.image);
+            for (const std::string& warning : picture.warnings)
+                job.outcome.warnings.push_back(job.outcome.shot.output + ": " + warning);
         });
         job.scene.reset();
     }

@@ -152,6 +152,7 @@ const std::vector<std::string>& supportedExtensions() {
                                                  "KHR_draco_mesh_compression",
                                                  "KHR_lights_punctual",
                                                  "KHR_materials_emissive_strength",
+                                                 "KHR_materials_transmission",
                                                  "KHR_materials_unlit",
                                                  "KHR_mesh_quantization",
                                                  "KHR_texture_transform",

@@ -12,6 +12,8 @@ constexpr double kPi = 3.14159265358979323846;
 /// Sizes of lights: their squares and the squares' inverses are floats.
 constexpr double kSmallestSize = 1e-9;
 constexpr double kLargestSize = 1e9;
+/// Of scattering: beyond, almost all light goes on straight, in a peak that floats do not resolve.
+constexpr double kLargestAnisotropy = 0.999;
 ValueRule sizeInMetres() {
     return number(kSmallestSize, kLargestSize);
 }
@@ -107,11 +109,14 @@ const ObjectSchema& material() {
     static const ObjectSchema normalTexture = textureInfoWith(optional("scale", number()));
     static const ObjectSchema occlusionTexture = textureInfoWith(optional("strength", number(0.0, 1.0)));
     static const ObjectSchema emissiveStrength{{optional("emissiveStrength", number(0.0, kLargest))}};
+    static const ObjectSchema transmission{{optional("transmissionFactor", number(0.0, 1.0)),
+                                            optional("transmissionTexture", objectOf(textureInfo()))}};
     static const ObjectSchema brdf{{required("model", text())}};
     static const ObjectSchema empty{};
     static const ObjectSchema extensions{
         {optional("KHR_materials_unlit", objectOf(empty)),
          optional("KHR_materials_emissive_strength", objectOf(emissiveStrength)),
+         optional("KHR_materials_transmission", objectOf(transmission)),
          optional("LOBE_materials_brdf", objectOf(brdf))}};
     static const ObjectSchema schema{
         {optional("name", text()), optional("pbrMetallicRoughness", objectOf(metallicRoughness)),
@@ -163,7 +168,9 @@ const ObjectSchema& scene() {
     static const ObjectSchema fog{{optional("extinction", arrayOf(number(0.0, kLargest), 3, 3)),
                                    optional("radiance", arrayOf(number(0.0, kLargest), 3, 3)),
                                    optional("heightFalloff", number(0.0, kLargest)),
-                                   optional("height", number())}};
+                                   optional("height", number()),
+                                   optional("scattering", arrayOf(number(0.0, kLargest), 3, 3)),
+                                   optional("anisotropy", number(-kLargestAnisotropy, kLargestAnisotropy))}};
     static const ObjectSchema extensions{{optional("LOBE_ambient", objectOf(ambient)),
                                           optional("LOBE_environment", objectOf(environment)),
                                           optional("LOBE_fog", objectOf(fog))}};

@@ -116,10 +116,14 @@ private:
                 refuse(document_.file, "nodes",
                        "more than " + std::to_string(kMostInstances) + " drawn primitives", "fewer");
             }
+            const Primitive& shape = result_.scene.primitives[static_cast<size_t>(primitive)];
+            // Light that a pane lets through would not be coloured: it throws no shadow at all.
+            const bool casts = castsShadow(document_, node) &&
+                               !seesThrough(result_.scene.materials[static_cast<size_t>(shape.material)]);
             // Skinned vertices are in world space already; glTF ignores the node's own transform.
-            result_.scene.instances.push_back(
-                {primitive, joints.empty() ? world_.transforms[node] : glm::dmat4(1.0),
-                 source.name.empty() ? at("nodes", node) : source.name, castsShadow(document_, node)});
+            result_.scene.instances.push_back({primitive,
+                                               joints.empty() ? world_.transforms[node] : glm::dmat4(1.0),
+                                               source.name.empty() ? at("nodes", node) : source.name, casts});
         }
     }
 

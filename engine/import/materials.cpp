@@ -12,6 +12,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kMetallicRoughness = "metallic_roughness";
+constexpr const char* kThinTransmission = "thin_transmission";
 constexpr const char* kUnlit = "unlit";
 constexpr uint8_t kRoughnessChannel = 1;  // glTF packs roughness into green, metallic into blue
 constexpr uint8_t kMetallicChannel = 2;
@@ -25,8 +26,8 @@ TextureSlot slotIn(const json& object, const char* name, const std::string& prop
     return found == object.end() ? TextureSlot{} : readTextureSlot(*found, property + "." + name, document);
 }
 
-void setMetallicRoughness(Material& material) {
-    const Brdf& brdf = requireBrdf(kMetallicRoughness);
+void setMetallicRoughness(Material& material, const char* model = kMetallicRoughness) {
+    const Brdf& brdf = requireBrdf(model);
     material.brdf = brdf.name;
     material.values = brdf.fromMetallicRoughness(material.metallicRoughness);
     material.textures.assign(brdf.parameters.size(), {});
@@ -39,6 +40,24 @@ void setMetallicRoughness(Material& material) {
     material.textureChannels[index("metallic")] = kMetallicChannel;
     material.textures[index("roughness")] = material.metallicRoughnessTexture;
     material.textureChannels[index("roughness")] = kRoughnessChannel;
+}
+
+/// KHR_materials_transmission: what is behind shows through the surface, as through a thin pane.
+void setTransmission(const json& extension, const std::string& property, Document& document,
+                     Material& material) {
+    const double factor = extension.value("transmissionFactor", 0.0);
+    if (factor == 0.0) {
+        return setMetallicRoughness(material);
+    }
+    setMetallicRoughness(material, kThinTransmission);
+    const auto index = static_cast<size_t>(requireBrdf(kThinTransmission).parameterIndex("transmission"));
+    material
+        .values[static_cast<size_t>(requireBrdf(kThinTransmission).valueOffset(static_cast<int>(index)))] =
+        factor;
+    material.textures[index] = slotIn(extension, "transmissionTexture", property, document);
+    if (material.metallicRoughness.roughness > 0.0) {
+        document.warn(property, "what shows through the surface is not blurred by its roughness");
+    }
 }
 
 /// An unlit surface shows its base colour alone (KHR_materials_unlit); all else would be read for nothing.
@@ -99,6 +118,9 @@ Material readMaterial(Document& document, size_t index) {
         readNamedBrdf(*brdf, property + ".extensions.LOBE_materials_brdf", document, material);
     } else if (findExtension(object, "KHR_materials_unlit") != nullptr) {
         setUnlit(material);
+    } else if (const json* transmission = findExtension(object, "KHR_materials_transmission")) {
+        setTransmission(*transmission, property + ".extensions.KHR_materials_transmission", document,
+                        material);
     } else {
         setMetallicRoughness(material);
     }

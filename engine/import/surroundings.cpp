@@ -47,6 +47,27 @@ Environment readEnvironment(Document& document, TextureTable& images, const json
     return environment;
 }
 
+Fog readFog(Document& document, const json& source, const std::string& property) {
+    Fog fog;
+    fog.extinction = rgbOf(source, "extinction", fog.extinction);
+    fog.radiance = rgbOf(source, "radiance", fog.radiance);
+    fog.heightFalloff = source.value("heightFalloff", 0.0);
+    fog.height = source.value("height", 0.0);
+    fog.scattering = rgbOf(source, "scattering", fog.scattering);
+    fog.anisotropy = source.value("anisotropy", 0.0);
+    for (int c = 0; c < 3; ++c) {
+        if (fog.scattering[c] > fog.extinction[c]) {
+            refuse(document.file, at(property + ".scattering", static_cast<size_t>(c)), fog.scattering[c],
+                   "at most the extinction, which it is a part of");
+        }
+    }
+    if (fog.heightFalloff > 0.0 && fog.scattering != glm::dvec3(0.0)) {
+        document.warn(property, "scattering is supported in fog without heightFalloff only; left out");
+        fog.scattering = glm::dvec3(0.0);
+    }
+    return fog;
+}
+
 }  // namespace
 
 void readSurroundings(Document& document, TextureTable& images, Scene& scene) {
@@ -64,11 +85,7 @@ void readSurroundings(Document& document, TextureTable& images, Scene& scene) {
                                             at("scenes", *shown, "extensions.LOBE_environment"));
     }
     if (const json* source = extension("LOBE_fog")) {
-        Fog fog;
-        fog.extinction = rgbOf(*source, "extinction", fog.extinction);
-        fog.radiance = rgbOf(*source, "radiance", fog.radiance);
-        fog.heightFalloff = source->value("heightFalloff", 0.0);
-        fog.height = source->value("height", 0.0);
+        const Fog fog = readFog(document, *source, at("scenes", *shown, "extensions.LOBE_fog"));
         if (fog.extinction != glm::dvec3(0.0)) {
             scene.fog = fog;
         }

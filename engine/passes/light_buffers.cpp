@@ -1,6 +1,7 @@
 #include "passes/light_buffers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shading/punctual.hpp"
 
@@ -43,7 +44,14 @@ void pushLight(std::vector<float>& data, const Light& light, const glm::dvec3& e
 
 }  // namespace
 
-LightBuffers::LightBuffers(const Scene& scene, const FramePlan& plan) {
+std::optional<double> LightBuffers::reachOf(const Light& light) const {
+    if (!(reach_ > 0.0)) return light.range;
+    const double reach =
+        reach_ * std::pow(std::max({light.intensity.r, light.intensity.g, light.intensity.b}), 0.2);
+    return std::min(reach, light.range.value_or(reach));
+}
+
+LightBuffers::LightBuffers(const Scene& scene, const FramePlan& plan) : reach_(plan.lightReach) {
     const Bounds bounds = scene.bounds();
     sceneRadius_ = bounds.radius();
     sceneCenter_ = bounds.center();
@@ -54,9 +62,10 @@ LightBuffers::LightBuffers(const Scene& scene, const FramePlan& plan) {
     for (size_t type = 0; type < 3; ++type) {
         shadows_[type] = plan.shadowOf(static_cast<LightType>(type)) != PlannedShadow::none;
         auto& list = lights_[type];
-        const auto split = clustered_[type] ? std::stable_partition(list.begin(), list.end(),
-                                                                    [](const Light* l) { return !l->range; })
-                                            : list.end();
+        const auto split = clustered_[type]
+                               ? std::stable_partition(list.begin(), list.end(),
+                                                       [&](const Light* l) { return !reachOf(*l); })
+                               : list.end();
         global_[type] = static_cast<int>(split - list.begin());
     }
 }
@@ -94,7 +103,7 @@ void LightBuffers::updateClusters(const View& view) {
         std::vector<LightVolume> volumes;
         for (size_t i = static_cast<size_t>(global_[type]); i < lights_[type].size(); ++i) {
             const Light& light = *lights_[type][i];
-            LightVolume volume{light.position - view.eye, *light.range};
+            LightVolume volume{light.position - view.eye, *reachOf(light)};
             if (light.type == LightType::spot) {
                 volume.axis = light.direction;
                 volume.coneAngle = light.outerConeAngle;
@@ -123,7 +132,7 @@ void LightBuffers::updateClusters(const View& view) {
     indices_ = gl::makeTextureBuffer(GL_R32UI, indices.data(), indices.size() * sizeof(uint32_t));
 }
 
-void LightBuffers::bind(const gl::Program& program, int unit) const {
+int LightBuffers::bind(const gl::Program& program, int unit) const {
     const auto attach = [&](const std::string& uniform, const gl::TextureBuffer& buffer) {
         if (!buffer.texture || program.uniform(uniform) < 0) return;
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -140,6 +149,7 @@ void LightBuffers::bind(const gl::Program& program, int unit) const {
     attach("uClusterIndices", indices_);
     program.set("uClusterZ", sliceFactors_);
     program.set("uClusterTiles", clusterTiles_);
+    return unit;
 }
 
 }  // namespace lobe

@@ -1,6 +1,7 @@
 /// The scene's lights as texture buffers, relative to the eye, and their cluster lists for one view.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gl/objects.hpp"
@@ -14,6 +15,8 @@ namespace lobe {
 
 /// Most lights that one loop of a shader runs over: llvmpipe ends loops at 65535 iterations without a word.
 inline constexpr int kLightsPerDraw = 32768;
+/// The same where each casts rays: 8,000 iterations a ray, of which few need more than 500.
+inline constexpr int kLightsPerDrawOfRays = 8;
 
 class LightBuffers {
 public:
@@ -23,8 +26,8 @@ public:
     void update(const View& view);
 
     /// Texture units from `firstUnit` on, and every light uniform that the program uses, for all lights of
-    /// its types.
-    void bind(const gl::Program& program, int firstUnit) const;
+    /// its types. Returns the first free unit.
+    int bind(const gl::Program& program, int firstUnit) const;
 
     /// Those of a type that cast shadows, in the order of their slots.
     std::vector<const Light*> casting(LightType type) const;
@@ -38,6 +41,10 @@ public:
 
 private:
     void updateClusters(const View& view);
+    /// Metres beyond which the light shows nothing, or less than the plan's threshold; absent: none.
+    std::optional<double> reachOf(const Light& light) const;
+
+    double reach_;  ///< FramePlan::lightReach
 
     std::vector<const Light*> lights_[3];  ///< by type, those outside the clusters first
     int global_[3] = {0, 0, 0};

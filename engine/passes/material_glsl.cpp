@@ -18,6 +18,8 @@ std::string modelAliases(const Brdf& brdf) {
     text += "#define MODEL_PARAMS " + glslParameterType(brdf) + "\n";
     for (const char* function : {"f_cos", "ambient", "roughness"})
         text += std::string("#define model_") + function + " " + brdf.name + "_" + function + "\n";
+    if (brdf.mirror) text += "#define model_mirror " + brdf.name + "_mirror\n";
+    if (brdf.transmittance) text += "#define model_transmittance " + brdf.name + "_transmittance\n";
     return text;
 }
 
@@ -123,7 +125,7 @@ std::string gbufferWriteFunction(const FramePlan& plan, const Brdf& brdf) {
 }
 
 bool writesGbuffer(const FramePlan& plan, const SurfaceFeatures& features) {
-    return plan.pass("gbuffer") != nullptr && features.alphaMode != AlphaMode::blend;
+    return plan.pass("gbuffer") != nullptr && !features.blended();
 }
 
 std::string varyings(const SurfaceFeatures& features) {

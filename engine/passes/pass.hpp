@@ -2,9 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <string>
 
+#include "passes/body_lights.hpp"
 #include "passes/light_buffers.hpp"
 #include "passes/program_cache.hpp"
+#include "passes/ray_scene.hpp"
 #include "passes/screen_state.hpp"
 #include "passes/shadow_maps.hpp"
 #include "passes/surface_draws.hpp"
@@ -20,8 +24,11 @@ struct FrameResources {
     Targets& targets;
     SurfaceDraws& surfaces;
     LightBuffers& lights;
+    BodyLights& bodies;
     ScreenInputs& inputs;
+    RayScene& rays;  ///< empty where the plan has none
     ShadowMaps& shadowMaps;
+    std::set<std::string> remarks;  ///< what a picture lacks of what the plan says; for people
 };
 
 class Pass {

@@ -59,10 +59,14 @@ struct Renderer::State {
               tables(*scene),
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
+              bodies(*scene, plan),
               inputs(*scene, plan, tables),
+              rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights),
-              resources{*scene, plan, programs, targets, surfaces, lights, inputs, shadowMaps} {
+              resources{*scene, plan,   programs, targets,    surfaces, lights,
+                        bodies, inputs, rays,     shadowMaps, {}} {
             for (const PlannedPass& planned : plan.passes) {
+                if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
                 pass->prepare();
@@ -81,7 +85,9 @@ struct Renderer::State {
         BrdfTableBuffer tables;
         SurfaceDraws surfaces;
         LightBuffers lights;
+        BodyLights bodies;
         ScreenInputs inputs;
+        RayScene rays;
         ShadowMaps shadowMaps;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
@@ -182,11 +188,13 @@ Picture Renderer::render(const Camera& camera) {
         run(*current.data, center);
         mark("aov");
     }
+    current.resources.remarks.clear();
     if (current.accumulate) state_->clearAccumulated();
     for (int sample = 0; sample < current.plan.samples; ++sample) {
         const View view = state_->adapted(
             makeView(camera, options.width, options.height, jitter(sample, current.plan.samples)));
         current.lights.update(view);
+        current.bodies.update(view, sample);
         mark("lights");
         state_->clearPictures();
         for (const auto& pass : current.frame) {
@@ -204,6 +212,7 @@ Picture Renderer::render(const Camera& camera) {
     }
     Picture picture;
     picture.image = readPicture(current.plan, current.targets, center, options.aovs);
+    picture.warnings.assign(current.resources.remarks.begin(), current.resources.remarks.end());
     mark("readback");
     gl::checkErrors("rendering");
     if (options.timePasses)

@@ -16,6 +16,25 @@ void CoveragePass::run(const View&) {
     resources().inputs.clearMask();
 }
 
+void DimPass::prepare() {
+    program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
+}
+
+void DimPass::run(const View&) {
+    program_->use();
+    program_->set("uTransmittance", 0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, targets().texture("transmittance"));
+    glBindSampler(0, 0);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+    for (const std::string& target : planned_.writes) {
+        glBindFramebuffer(GL_FRAMEBUFFER, targets().single(target));
+        resources().inputs.drawScreen(*program_);
+    }
+    glDisable(GL_BLEND);
+}
+
 void AccumulatePass::prepare() {
     program_ = &resources().programs.get("pass/screen.vert", planned_.program,
                                          planned_.variants.front().defines, {});

@@ -16,9 +16,29 @@ ScreenInputs::ScreenInputs(const Scene& scene, const FramePlan& plan, const Brdf
     materials_ = gl::makeTextureBuffer(GL_RGBA32F, table.data(), table.size() * sizeof(float));
 }
 
+int ScreenInputs::bindView(const gl::Program& program, const Targets& targets, const View& view) const {
+    int unit = 0;
+    if (program.uniform("uDepth") >= 0) {
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(
+            GL_TEXTURE_2D,
+            targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
+        glBindSampler(0, 0);
+        program.set("uDepth", unit++);
+    }
+    program.set("uDepthToZ", glm::vec4(view.depthToZ));
+    program.set("uRayOrigin", glm::vec3(view.rayOrigin));
+    program.set("uRayOriginDx", glm::vec3(view.rayOriginDx));
+    program.set("uRayOriginDy", glm::vec3(view.rayOriginDy));
+    program.set("uRayDirection", glm::vec3(view.rayDirection));
+    program.set("uRayDirectionDx", glm::vec3(view.rayDirectionDx));
+    program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
+    return unit;
+}
+
 int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const View& view,
                        const PlannedBrdf& brdf) const {
-    int unit = 0;
+    int unit = bindView(program, targets, view);
     const auto attach = [&](const std::string& uniform, GLenum kind, GLuint texture) {
         if (program.uniform(uniform) < 0) return;
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -26,8 +46,6 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
         glBindSampler(static_cast<GLuint>(unit), 0);
         program.set(uniform, unit++);
     };
-    attach("uDepth", GL_TEXTURE_2D,
-           targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
     if (targets.has("normal")) attach("uNormal", GL_TEXTURE_2D, targets.texture("normal"));
     if (targets.has("geometric_normal"))
         attach("uGeometricNormal", GL_TEXTURE_2D, targets.texture("geometric_normal"));
@@ -39,19 +57,12 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
     if (materials_.texture) attach("uMaterials", GL_TEXTURE_BUFFER, materials_.texture.id());
 
     tables_.bind(program);
-
-    program.set("uDepthToZ", glm::vec4(view.depthToZ));
-    program.set("uRayOrigin", glm::vec3(view.rayOrigin));
-    program.set("uRayOriginDx", glm::vec3(view.rayOriginDx));
-    program.set("uRayOriginDy", glm::vec3(view.rayOriginDy));
-    program.set("uRayDirection", glm::vec3(view.rayDirection));
-    program.set("uRayDirectionDx", glm::vec3(view.rayDirectionDx));
-    program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
     if (brdf.name == kUnlit) return unit;
     for (const Instance& instance : scene_.instances) {
         const Primitive& primitive = scene_.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene_.materials[static_cast<size_t>(primitive.material)];
-        if (material.brdf != brdf.name || material.alphaMode == AlphaMode::blend) continue;
+        if (material.brdf != brdf.name || material.alphaMode == AlphaMode::blend || seesThrough(material))
+            continue;
         // Parameters that reach the shader as uniforms are the same for all; any material of the model will
         // do.
         setParameters(program, requireBrdf(brdf.name), material.values);
@@ -70,6 +81,13 @@ void ScreenInputs::setMask(const PlannedBrdf* brdf) const {
     glStencilMask(0);
     glStencilFunc(GL_EQUAL, brdf->stencil, 0xff);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+}
+
+void ScreenInputs::setBackgroundMask() const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+    glDisable(GL_CULL_FACE);
 }
 
 void ScreenInputs::clearMask() const {

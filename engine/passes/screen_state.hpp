@@ -20,8 +20,13 @@ public:
     int bind(const gl::Program& program, const Targets& targets, const View& view,
              const PlannedBrdf& brdf) const;
 
+    /// The depth of surfaces and the view, of bind().
+    int bindView(const gl::Program& program, const Targets& targets, const View& view) const;
+
     /// Draws only where a surface was stored, and only the model's pixels if the scene has several.
     void setMask(const PlannedBrdf* brdf) const;
+    /// Draws only where none was.
+    void setBackgroundMask() const;
     void clearMask() const;
 
     /// One triangle over all; the program must be made with pass/screen.vert.

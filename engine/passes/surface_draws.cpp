@@ -49,12 +49,15 @@ SurfaceDraws::SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capa
       programs_(programs),
       tables_(tables),
       textures_(scene, plan.quality.textureBits, capabilities) {
+    int triangles = 0;
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const SurfaceFeatures features = surfaceFeatures(
             scene.materials[static_cast<size_t>(primitive.material)], primitive, plan.ambient);
         const auto found = std::find(plan.surfaces.begin(), plan.surfaces.end(), features);
         surfaceOfInstance_.push_back(static_cast<int>(found - plan.surfaces.begin()));
+        firstTriangles_.push_back(triangles);
+        triangles += static_cast<int>(primitive.triangleCount());
     }
 }
 
@@ -180,6 +183,7 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
     };
     std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
         if (order == SurfaceOrder::backToFront) return a.depth > b.depth;
+        if (order == SurfaceOrder::byScene) return a.instance < b.instance;
         return std::pair(a.surface, materialOf(a)) < std::pair(b.surface, materialOf(b));
     });
 
@@ -208,6 +212,7 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
         glm::dmat4 relativeFromLocal = instance.worldFromLocal;
         relativeFromLocal[3] -= glm::dvec4(view.eye, 0.0);
         shader->set("uRelativeFromLocal", glm::mat4(relativeFromLocal));
+        shader->set("uFirstTriangle", firstTriangles_[static_cast<size_t>(item.instance)]);
         shader->set("uNormalFromLocal", glm::mat3(normalMatrix(glm::dmat3(relativeFromLocal))));
 
         const bool mirrored = glm::determinant(glm::dmat3(relativeFromLocal)) < 0.0;

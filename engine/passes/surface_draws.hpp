@@ -16,7 +16,7 @@
 
 namespace lobe {
 
-enum class SurfaceOrder { byProgram, backToFront };
+enum class SurfaceOrder { byProgram, backToFront, byScene };
 
 class SurfaceDraws {
 public:
@@ -65,6 +65,7 @@ private:
     GpuTextures textures_;
     std::map<int, Geometry> geometry_;
     std::vector<int> surfaceOfInstance_;
+    std::vector<int> firstTriangles_;  ///< of each instance, counting all of the scene
     std::map<const Variant*, const gl::Program*> compiled_;
 };
 

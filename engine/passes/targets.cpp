@@ -25,8 +25,10 @@ GLenum formatOf(const std::string& name) {
 
 Targets::Targets(const FramePlan& plan, int width, int height) : width_(width), height_(height) {
     for (const Channel& channel : plan.channels) {
-        if (channel.name == "accumulated") continue;  // one for each picture that is accumulated, made below
-        if (channel.name == "shadow.maps") continue;  // of a size of its own (passes/shadow_maps.hpp)
+        // Those that are accumulated have one each, made below; layers belong to their pass, shadow maps have
+        // a size of their own.
+        if (channel.name == "accumulated" || channel.name.starts_with("layer")) continue;
+        if (channel.name == "shadow.maps") continue;
         textures_.emplace(channel.name, gl::makeTarget(formatOf(channel.format), width, height));
     }
     std::vector<std::string> pictures;

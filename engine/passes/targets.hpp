@@ -26,6 +26,8 @@ public:
     /// meanwhile.
     GLuint lighting(const std::string& channel) const { return lighting_.at(channel).id(); }
     GLuint forward() const { return forward_.id(); }
+    /// Where the depth channel is attached.
+    GLenum depthAttachment() const { return stencil_ ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT; }
     /// One colour channel alone, for clearing, reading and accumulation.
     GLuint single(const std::string& channel) const { return single_.at(channel).id(); }
     /// What lies behind `lighting`'s mask; call when the G-buffer is complete.

@@ -49,10 +49,11 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
 /// Why no stored normal is read: those of punctual lights are the only ones that show.
 std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
     if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
-    if (scene.directionalLights + scene.pointLights + scene.spotLights == 0)
-        return "no light reads the normal";
-    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(),
-                                   [](const BrdfFacts& facts) { return scattersLight(facts.name); });
+    const bool punctual = scene.directionalLights + scene.pointLights + scene.spotLights > 0;
+    if (!punctual && scene.bodyLights.empty()) return "no light reads the normal";
+    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(), [&](const BrdfFacts& facts) {
+        return scattersLight(facts.name) || (!scene.bodyLights.empty() && facts.name != kUnlit);
+    });
     return shows ? "" : "no opaque surface shows punctual light";
 }
 
@@ -82,6 +83,13 @@ int lightsOf(const SceneSummary& scene) {
     return count;
 }
 
+/// Why each light reaches all of the scene.
+std::string withoutReach(const SceneSummary& scene, const Quality& quality) {
+    if (scene.pointLights + scene.spotLights == 0) return "no point or spot light in the scene";
+    if (!scene.unbounded.empty()) return "what " + scene.unbounded + " reflects has no bound";
+    return quality.clusterFrom == 0 ? "clusters are off" : "";
+}
+
 std::string withoutLights(const SceneSummary& scene, const Quality&) {
     return lightsOf(scene) > 0 ? "" : "no light in the scene";
 }
@@ -104,11 +112,20 @@ std::string withoutBodies(const SceneSummary& scene, const Quality&) {
 /// Why no point on a light is ever drawn.
 std::string withoutLightSamples(const SceneSummary& scene, const Quality& quality) {
     if (std::string reason = withoutBodies(scene, quality); !reason.empty()) return reason;
-    return {};
+    const auto scatters = [](const SurfaceFeatures& surface) { return scattersLight(surface.brdf); };
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), scatters))
+        return "no surface scatters light of a body";
+    const bool closed = std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [](const auto& surface) {
+        return !scattersLight(surface.brdf) || hasClosedForm(surface.brdf);
+    });
+    return closed && quality.areaLights == AreaLights::analytic && quality.shadows != Shadows::soft
+               ? "lights are in closed form and no shadow is soft"
+               : "";
 }
 
 std::string withoutAirlight(const SceneSummary& scene, const Quality&) {
-    return scene.fog && scene.pointLights + scene.spotLights > 0 ? "" : "no fog with a light in it";
+    if (!scene.fogScatters) return "no fog that scatters light in the scene";
+    return scene.pointLights + scene.spotLights > 0 ? "" : "no point or spot light in the fog";
 }
 
 std::string withoutBlended(const SceneSummary& scene, const Quality&) {
@@ -271,7 +288,7 @@ const std::vector<Knob>& knobTable() {
          .range = {{0, 1000}},
          .get = [](const Quality& q) { return std::to_string(q.lightThreshold); },
          .set = [](Quality& q, const std::string& value) { q.lightThreshold = std::stoi(value); },
-         .withoutEffect = withoutLights},
+         .withoutEffect = withoutReach},
         {.name = "airlight_nodes",
          .title = "Airlight nodes",
          .help = "of the quadrature along the view ray, for each light that fog scatters; 0 for none",

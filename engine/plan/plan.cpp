@@ -24,6 +24,7 @@ int bytesOfFormat(const std::string& format) {
                                                      {"R8UI", 1},
                                                      {"R16UI", 2},
                                                      {"R32UI", 4},
+                                                     {"RG32UI", 8},
                                                      {"DEPTH_COMPONENT24", 4},
                                                      {"DEPTH_COMPONENT32F", 4},
                                                      {"DEPTH24_STENCIL8", 4},
@@ -42,7 +43,8 @@ FramePlan Planner::plan() {
     plan_.textures = scene_.textures;
     plan_.reversedDepth = capabilities_.clipControl;
     deferred_ = plan_.quality.shading == Shading::deferred;
-    anyLight_ = scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0;
+    anyLight_ =
+        scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0 || !scene_.bodyLights.empty();
     unlit_ = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(),
                          [](const BrdfFacts& f) { return f.name == kUnlit; });
     hasDeferredSurface_ = deferred_ && !scene_.brdfs.empty();

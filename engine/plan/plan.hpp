@@ -63,6 +63,17 @@ struct LeftOut {
 /// How the shadows of one type of light are found.
 enum class PlannedShadow : uint8_t { none, maps, rays };
 
+/// How what the surfaces of one model show of lights with a body is found.
+enum class AreaMethod : uint8_t {
+    analytic,  ///< the whole light in closed form; its shadow by points
+    sampled,   ///< by points on the light
+    mirrored   ///< where the mirrored ray meets it
+};
+struct PlannedArea {
+    AreaMethod method = AreaMethod::sampled;
+    std::string reason;
+};
+
 struct FramePlan {
     Quality quality;
     int samples = 1;
@@ -70,9 +81,18 @@ struct FramePlan {
     bool masked = false;        ///< lighting passes are masked by stencil, a value a model
     bool ambient = false;
     bool clusteredPoint = false, clusteredSpot = false;
+    /// Metres beyond which a light of intensity 1 W/sr is left out; one of intensity I: times I^(1/5). 0:
+    /// none is.
+    double lightReach = 0.0;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
-    PlannedShadowMaps shadowMaps;                     ///< of the types whose shadows are maps
+    std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
+    int areaPoints = 0;            ///< on each light with a body, in each frame; 0: none are needed
+    int areaPointsForward = 0;     ///< the same, for surfaces of the forward pass
+    bool rays = false;             ///< the scene's hierarchy of boxes is made for the rays of some program
+    int airlightNodes = 0;         ///< of each lamp's airlight; 0: there is none
+    int mostLayers = 0;            ///< of blended surfaces that are peeled; 0: they are sorted by object
+    PlannedShadowMaps shadowMaps;  ///< of the types whose shadows are maps
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
@@ -95,6 +115,16 @@ struct FramePlan {
     const PlannedBrdf* brdf(std::string_view name) const;
     int gbufferBytesPerPixel() const;
 };
+
+/// Most rays, and most points without rays, that a fragment of one draw follows to lights with a body:
+/// llvmpipe ends loops at 65535 rounds in all, and few rays take more than 500.
+inline constexpr int kRaysPerDraw = 16;
+/// Of draws that cannot be split.
+inline constexpr int kRaysPerForwardDraw = 64;
+inline constexpr int kPointsPerDraw = 32768;
+
+/// "directional", "rect", ...
+const char* nameOf(LightType type);
 
 FramePlan planFrame(const SceneSummary& summary, const Quality& quality, const Capabilities& capabilities,
                     const AovSet& aovs = {Aov::radiance});

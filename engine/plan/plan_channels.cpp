@@ -70,15 +70,19 @@ void Planner::planGeometryChannels() {
 }
 
 void Planner::planNormal() {
+    const bool punctual = scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0;
     double sharpness = 0.0;
-    bool lit = false;
+    bool read = false;
     for (const BrdfFacts& facts : scene_.brdfs) {
         sharpness = std::max(sharpness, facts.sharpness);
-        lit |= scattersLight(facts.name);
+        read |= (punctual && scattersLight(facts.name)) ||
+                (!scene_.bodyLights.empty() && showsBodies(facts.name));
     }
-    if (!(lit && anyLight_) && !wants(Aov::normal)) {
+    if (!read && !wants(Aov::normal)) {
         leaveOut("channel", "normal",
-                 !anyLight_ ? "no light reads it" : "no opaque surface shows punctual light");
+                 !anyLight_                  ? "no light reads it"
+                 : scene_.bodyLights.empty() ? "no opaque surface shows punctual light"
+                                             : "no opaque surface shows these lights");
         return;
     }
     const int asked = plan_.quality.normalBits;
@@ -224,7 +228,7 @@ void Planner::planParameters() {
 
 void Planner::planRadiance() {
     const bool half = plan_.quality.radianceBits == 16;
-    const std::string format = half ? "RGBA16F" : "RGBA32F";
+    const std::string format = radianceFormat();
     addChannel("radiance", format, "radiance and coverage",
                half ? "radiance_bits asks for 16 bits: each light adds an error of up to 1e-3; from 65504 on "
                       "radiance is infinite"
@@ -238,7 +242,11 @@ void Planner::planRadiance() {
         leaveOut("texture", "occlusion",
                  scene_.ambient ? "no material has one" : "there is no ambient light for it to act on");
     if (contributions_) {
-        plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot", "transparent"};
+        plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot"};
+        for (const auto& [type, count] : scene_.bodyLights)
+            plan_.contributionTargets.emplace_back(nameOf(type));
+        if (scene_.fog) plan_.contributionTargets.emplace_back("fog");
+        plan_.contributionTargets.emplace_back("transparent");
         for (const std::string& name : plan_.contributionTargets)
             addChannel("contribution." + name, format, "radiance from " + name, "asked for as AOV");
         if (gbufferRadiance_) {

@@ -1,4 +1,7 @@
 // Lights: which are listed by cluster, and whether all fit.
+#include <cmath>
+#include <sstream>
+
 #include "base/error.hpp"
 #include "plan/planner.hpp"
 
@@ -19,18 +22,34 @@ void Planner::requireForwardLoop(const char* type, int global) const {
 }
 
 void Planner::planUndrawn() {
-    static const std::map<LightType, const char*> kNames{{LightType::rect, "rect"},
-                                                         {LightType::disk, "disk"},
-                                                         {LightType::sphere, "sphere"},
-                                                         {LightType::tube, "tube"}};
-    for (const auto& [type, count] : scene_.bodyLights)
-        leaveOut("light", kNames.at(type), plural(count, "light") + "; not drawn yet");
     if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
-    if (scene_.fog) leaveOut("pass", "fog", "not drawn yet");
+}
+
+/// With f_r cos(theta) <= P, a light of intensity I adds at most I P / d^2 at distance d. Each may take its
+/// share w / W of the threshold T, w = I^(3/5): it is left out from d = sqrt(I P W / (w T)) on, and what all
+/// lights take together stays below T.
+void Planner::planReach() {
+    const int threshold = plan_.quality.lightThreshold;
+    if (threshold == 0 || scene_.pointLights + scene_.spotLights == 0) return;
+    const std::string none = "light_threshold: no light is left out, since ";
+    if (plan_.quality.clusterFrom == 0) return plan_.notes.push_back(none + "clusters are off");
+    if (!scene_.unbounded.empty())
+        return plan_.notes.push_back(none + "what " + scene_.unbounded + " reflects has no bound");
+    const double most = threshold / 1000.0;
+    plan_.lightReach = std::sqrt(scene_.peak * scene_.reachWeight / most);
+    std::ostringstream note;
+    note << "light_threshold: lights are left out where they show less than their share; all that is left "
+            "out of a "
+            "pixel adds up to at most "
+         << most << ", as no surface reflects more than " << scene_.peak
+         << " /sr of a direction: a light of 1 W/sr reaches " << plan_.lightReach << " m";
+    plan_.notes.push_back(note.str());
 }
 
 void Planner::planLights() {
     planUndrawn();
+    planReach();
+    const bool reach = plan_.lightReach > 0.0;
     const int from = plan_.quality.clusterFrom;
     const auto clustered = [&](const char* type, int count, int ranged, int& global) {
         if (count == 0) return false;
@@ -51,15 +70,18 @@ void Planner::planLights() {
         plan_.lightGroups.push_back("directional: " + plural(scene_.directionalLights, "light") +
                                     ", one loop over all");
     plan_.clusteredPoint =
-        clustered("point", scene_.pointLights, scene_.rangedPointLights, plan_.globalPointLights);
+        clustered("point", scene_.pointLights, reach ? scene_.pointLights : scene_.rangedPointLights,
+                  plan_.globalPointLights);
     plan_.clusteredSpot =
-        clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
+        clustered("spot", scene_.spotLights, reach ? scene_.spotLights : scene_.rangedSpotLights,
+                  plan_.globalSpotLights);
     requireFit("directional", scene_.directionalLights, 2);
     requireFit("point", scene_.pointLights, 2);
     requireFit("spot", scene_.spotLights, plan_.shadowOf(LightType::spot) == PlannedShadow::none ? 3 : 4);
     requireForwardLoop("directional", scene_.directionalLights);
     requireForwardLoop("point", plan_.globalPointLights);
     requireForwardLoop("spot", plan_.globalSpotLights);
+    planBodyLights();
     if (!plan_.clusteredPoint && !plan_.clusteredSpot)
         leaveOut("buffer", "light clusters", "no light type has enough ranged lights for lists to pay");
 }

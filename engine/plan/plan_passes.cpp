@@ -6,17 +6,12 @@
 
 namespace lobe {
 
-namespace {
-
-/// "aov.depth" as a define can be called: "AOV_DEPTH".
 std::string defineName(std::string name) {
     std::replace(name.begin(), name.end(), '.', '_');
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return name;
 }
-
-}  // namespace
 
 Planner::Defines Planner::commonDefines() const {
     Defines defines;
@@ -56,6 +51,7 @@ void Planner::shadowDefines(Defines& defines, LightType type) const {
     defines["SHADOWS"] = "1";
     defines[kNames.at(type) + "_SHADOWS"] = "1";
     defines[kNames.at(type) + (method == PlannedShadow::rays ? "_SHADOW_RAYS" : "_SHADOW_MAPS")] = "1";
+    if (method == PlannedShadow::rays) rayDefines(defines);
     shadowMapDefines(defines, type);
 }
 
@@ -70,6 +66,7 @@ Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const 
     flag("NORMAL_MAP", features.texture("normal") != nullptr);
     flag("ALPHA_MASK", features.alphaMode == AlphaMode::mask);
     flag("ALPHA_BLEND", features.alphaMode == AlphaMode::blend);
+    flag("TRANSMISSION", features.transmits);
     flag("EMISSION", features.emission);
     flag("TANGENTS", features.texture("normal") != nullptr ||
                          (features.brdf != kUnlit && requireBrdf(features.brdf).traits.usesTangent));
@@ -85,9 +82,12 @@ void Planner::planPasses() {
     planShadowMaps();
     planGbufferPass();
     planCoverage();
-    planLightPass("light.directional", "pass/light.frag", LightType::directional, scene_.directionalLights);
-    planLightPass("light.point", "pass/light.frag", LightType::point, scene_.pointLights);
-    planLightPass("light.spot", "pass/light.frag", LightType::spot, scene_.spotLights);
+    planLightPass(LightType::directional, scene_.directionalLights);
+    planLightPass(LightType::point, scene_.pointLights);
+    planLightPass(LightType::spot, scene_.spotLights);
+    planBodyPasses();
+    planFog();
+    planAirlight();
     planForward();
     planAccumulation();
     planDataAovs();
@@ -102,7 +102,7 @@ void Planner::planGbufferPass() {
     pass.writes.insert(pass.writes.begin(), "depth");
     for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
         const SurfaceFeatures& features = plan_.surfaces[i];
-        if (features.alphaMode == AlphaMode::blend) continue;
+        if (features.blended()) continue;
         Defines defines = surfaceDefines(features);
         defines.merge(commonDefines());
         defines["GBUFFER"] = "1";
@@ -133,21 +133,30 @@ void Planner::planCoverage() {
                             "lighting passes add radiance only; coverage is set once"});
 }
 
-void Planner::planLightPass(const std::string& name, const std::string& program, LightType type, int count) {
-    static const char* const kinds[] = {"directional", "point", "spot"};
-    const std::string kind = kinds[static_cast<size_t>(type)];
-    if (count == 0) return leaveOut("pass", name, "the scene has no " + kind + " light");
-    if (!deferred_) return leaveOut("pass", name, "forward shading");
-    PlannedPass pass{name,
-                     program,
-                     {},
-                     {"depth"},
-                     {contributions_ ? "contribution." + kind : "radiance"},
-                     plural(count, kind + " light")};
+PlannedPass Planner::lightPass(const std::string& name, const std::string& kind,
+                               const std::string& reason) const {
+    PlannedPass pass{
+        name,  "pass/light.frag", {}, {"depth"}, {contributions_ ? "contribution." + kind : "radiance"},
+        reason};
     for (const char* channel : {"linear_z", "normal", "geometric_normal", "tangent", "material"})
         if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
     for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
         pass.reads.push_back("parameters" + std::to_string(i));
+    return pass;
+}
+
+Planner::Defines Planner::screenDefines(const std::string& model) const {
+    Defines defines = commonDefines();
+    if (requireBrdf(model).traits.usesTangent) defines["USES_TANGENT"] = "1";
+    if (scene_.bandedBrdfs.contains(model)) defines["FRESNEL_BANDS"] = "1";
+    return defines;
+}
+
+void Planner::planLightPass(LightType type, int count) {
+    const std::string kind = nameOf(type), name = "light." + kind;
+    if (count == 0) return leaveOut("pass", name, "the scene has no " + kind + " light");
+    if (!deferred_) return leaveOut("pass", name, "forward shading");
+    PlannedPass pass = lightPass(name, kind, plural(count, kind + " light"));
     for (const PlannedBrdf& brdf : plan_.brdfs) {
         if (!scattersLight(brdf.name)) continue;
         // Lists of clusters are drawn tile by tile, lights that reach everything over the whole picture:
@@ -155,48 +164,14 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
         Defines lights;
         lightDefines(lights, type);
         for (const auto& [key, value] : lights) {
-            Defines defines = commonDefines();
+            Defines defines = screenDefines(brdf.name);
             defines[key] = value;
             shadowDefines(defines, type);
-            if (requireBrdf(brdf.name).traits.usesTangent) defines["USES_TANGENT"] = "1";
-            if (scene_.bandedBrdfs.contains(brdf.name)) defines["FRESNEL_BANDS"] = "1";
             if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
             pass.variants.push_back({brdf.name, -1, defines});
         }
     }
     if (pass.variants.empty()) return leaveOut("pass", name, "no opaque surface shows it");
-    plan_.passes.push_back(pass);
-}
-
-void Planner::planForward() {
-    if (!scene_.blended && deferred_) return leaveOut("pass", "forward", "no blended surface");
-    PlannedPass pass{"forward", "pass/forward.frag", {}, {"depth"}, {"radiance"}, ""};
-    if (contributions_) {
-        pass.writes.clear();
-        for (const std::string& name : plan_.contributionTargets)
-            pass.writes.push_back("contribution." + name);
-        pass.writes.emplace_back("radiance");  // coverage only
-    }
-    for (size_t i = 0; i < plan_.surfaces.size(); ++i) {
-        const SurfaceFeatures& features = plan_.surfaces[i];
-        if (deferred_ && features.alphaMode != AlphaMode::blend) continue;
-        Defines defines = surfaceDefines(features);
-        if (scattersLight(features.brdf)) {
-            const std::pair<LightType, int> types[] = {{LightType::directional, scene_.directionalLights},
-                                                       {LightType::point, scene_.pointLights},
-                                                       {LightType::spot, scene_.spotLights}};
-            for (const auto& [type, lights] : types) {
-                if (lights == 0) continue;
-                lightDefines(defines, type);
-                shadowDefines(defines, type);
-            }
-        }
-        if (contributions_) defines["CONTRIBUTIONS"] = "1";
-        pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
-    }
-    pass.reason = deferred_ ? plural(static_cast<int>(scene_.blendedInstances), "blended instance") +
-                                  ", drawn back to front"
-                            : "forward shading is asked for";
     plan_.passes.push_back(pass);
 }
 

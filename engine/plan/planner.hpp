@@ -15,8 +15,14 @@ std::string plural(int count, const std::string& noun);
 /// Whether punctual lights show on surfaces of this model.
 bool scattersLight(const std::string& model);
 
+/// Whether light of bodies that surfaces of this model reflect is known without points on them.
+bool hasClosedForm(const std::string& model);
+
 /// Bytes a pixel of a format, by its OpenGL name.
 int bytesOfFormat(const std::string& format);
+
+/// "aov.depth" as a define can be called: "AOV_DEPTH".
+std::string defineName(std::string name);
 
 class Planner {
 public:
@@ -57,23 +63,59 @@ private:
     /// at 65535.
     void requireForwardLoop(const char* type, int global) const;
     void planShadows();
+    void planBodyShadows();
+    /// Why no light of a type casts shadows here; empty if some do.
+    std::string whyNoShadow(int casting) const;
+    /// Why rays cannot be had on this driver; empty if they can.
+    std::string whyNoRays() const;
+    /// Throws ContextError if they cannot.
+    void requireRays();
     PlannedShadow shadowMethod(LightType type, int lights, int casting);
+    /// For programs that include shadow/rays.glsl; where any does, FramePlan::rays is to be set.
+    void rayDefines(Defines& defines) const;
+    void noteRays();
     void planShadowMaps();
     void planShadowMapSize();
     void shadowMapDefines(Defines& defines, LightType type) const;
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
+    void planReach();
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights();
     Defines commonDefines() const;
     void lightDefines(Defines& defines, LightType type) const;
+    /// Of passes over the screen, for one model.
+    Defines screenDefines(const std::string& model) const;
+    int bodyCount(LightType type) const;
+    /// Whether lights with a body show on surfaces of this model.
+    bool showsBodies(const std::string& model) const;
+    PlannedArea areaMethod(const std::string& model) const;
+    void planBodyLights();
+    Defines bodyDefines(const std::string& model, LightType type) const;
+    Defines forwardBodyDefines(const std::string& model) const;
+    void planBodyPasses();
+    void planBodyPass(LightType type);
     void shadowDefines(Defines& defines, LightType type) const;
     Defines surfaceDefines(const SurfaceFeatures& features) const;
     void planPasses();
     void planGbufferPass();
     void planCoverage();
-    void planLightPass(const std::string& name, const std::string& program, LightType type, int count);
+    /// Without variants.
+    PlannedPass lightPass(const std::string& name, const std::string& kind, const std::string& reason) const;
+    void planLightPass(LightType type, int count);
+    void fogDefines(Defines& defines) const;
+    void airlightDefines(Defines& defines, LightType type) const;
+    void requireAirlightLoop(const char* type, int count) const;
+    void addFogVariants(PlannedPass& pass, const Defines& defines) const;
+    void planFog();
+    void planAirlight();
+    void peelDefines(Defines& defines) const;
+    void forwardDefines(Defines& defines, const SurfaceFeatures& features) const;
+    std::vector<std::string> forwardTargets() const;
     void planForward();
+    void planDim();
+    void planPeel(bool peeled);
+    std::string radianceFormat() const { return plan_.quality.radianceBits == 16 ? "RGBA16F" : "RGBA32F"; }
     void planAccumulation();
     void planDataAovs();
     void planVertexData();

@@ -1,6 +1,8 @@
 #include "plan/summary.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "plan/shadow_layout.hpp"
 #include "scene/brdf_tables.hpp"
@@ -108,6 +110,8 @@ void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) 
 
 void countLights(const Scene& scene, SceneSummary& summary) {
     for (const Light& light : scene.lights) {
+        if (light.type == LightType::point || light.type == LightType::spot)
+            summary.reachWeight += reachWeight(light);
         if (light.castsShadow) {
             ++summary.shadowLights[light.type];
             if (light.type == LightType::spot && needsCube(light)) ++summary.wideShadowSpots;
@@ -131,7 +135,41 @@ void countLights(const Scene& scene, SceneSummary& summary) {
     }
     summary.environment = scene.environment.has_value();
     summary.fog = scene.fog.has_value();
+    summary.fogFallsOff = scene.fog && scene.fog->heightFalloff > 0.0;
+    summary.fogGrey = scene.fog && scene.fog->extinction == glm::dvec3(scene.fog->extinction.x) &&
+                      scene.fog->scattering == glm::dvec3(scene.fog->scattering.x);
+    summary.fogScatters = scene.fog && scene.fog->scattering != glm::dvec3(0.0);
     summary.ambient = scene.ambientRadiance && *scene.ambientRadiance != glm::dvec3(0.0);
+}
+
+/// Parameters that a texture scales may be anything down to their minimum; those of colour only shrink, and
+/// the bound with them.
+double peakOf(const Material& material, const Primitive& primitive) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    if (material.brdf == kUnlit) return 0.0;
+    const Brdf& brdf = requireBrdf(material.brdf);
+    if (!brdf.traits.scattersLight) return 0.0;
+    if (!brdf.peak || !primitive.colors.empty()) return kNone;
+    ParameterValues values = material.values;
+    const auto largest = [&] {
+        const glm::dvec3 peak = brdf.peak(values);
+        const double most = std::max({peak.r, peak.g, peak.b});
+        return most < kNone ? most : kNone;
+    };
+    double peak = largest();
+    for (size_t p = 0; p < material.textures.size(); ++p) {
+        const Parameter& parameter = brdf.parameters[p];
+        if (!material.textures[p] || parameter.kind != ParameterKind::scalar) continue;
+        values[static_cast<size_t>(brdf.valueOffset(static_cast<int>(p)))] = parameter.minimum;
+        peak = std::max(peak, largest());
+    }
+    return peak;
+}
+
+void addPeak(const Material& material, const Primitive& primitive, SceneSummary& summary) {
+    const double peak = peakOf(material, primitive);
+    summary.peak = std::max(summary.peak, peak);
+    if (std::isinf(peak) && summary.unbounded.empty()) summary.unbounded = material.brdf;
 }
 
 void countBands(const Scene& scene, const std::set<int>& materials, SceneSummary& summary) {
@@ -179,6 +217,7 @@ SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primi
     SurfaceFeatures features;
     features.brdf = material.brdf;
     features.alphaMode = material.alphaMode;
+    features.transmits = seesThrough(material);
     features.vertexColors = !primitive.colors.empty();
     features.emission = material.emission != glm::vec3(0.0f);
 
@@ -198,6 +237,10 @@ SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primi
     return features;
 }
 
+double reachWeight(const Light& light) {
+    return std::pow(std::max({light.intensity.r, light.intensity.g, light.intensity.b}), 0.6);
+}
+
 SceneSummary summarise(const Scene& scene) {
     SceneSummary summary;
     countLights(scene, summary);
@@ -209,6 +252,7 @@ SceneSummary summarise(const Scene& scene) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
         const SurfaceFeatures features = surfaceFeatures(material, primitive, summary.ambient);
+        addPeak(material, primitive, summary);
         surfaces.insert(features);
         materials.insert(primitive.material);
         ++summary.instances;
@@ -218,8 +262,8 @@ SceneSummary summarise(const Scene& scene) {
             summary.maskedCasters |= material.alphaMode == AlphaMode::mask;
             summary.blendedCasters |= material.alphaMode == AlphaMode::blend;
         }
-        summary.opaque |= material.alphaMode == AlphaMode::opaque;
-        summary.masked |= material.alphaMode == AlphaMode::mask;
+        summary.opaque |= !features.blended() && material.alphaMode == AlphaMode::opaque;
+        summary.masked |= !features.blended() && material.alphaMode == AlphaMode::mask;
         summary.emission |= features.emission;
         summary.vertexColors |= features.vertexColors;
         summary.normalMaps |= features.texture("normal") != nullptr;
@@ -228,8 +272,10 @@ SceneSummary summarise(const Scene& scene) {
             summary.uv[set] |= features.usesUv(set);
         const bool usesTangent = material.brdf != kUnlit && requireBrdf(material.brdf).traits.usesTangent;
         summary.tangents |= usesTangent || features.texture("normal") != nullptr;
-        if (material.alphaMode == AlphaMode::blend) {
+        if (features.blended()) {
             summary.blended = true;
+            summary.transmits |= features.transmits;
+            summary.blendedTriangles += primitive.triangleCount();
             ++summary.blendedInstances;
             summary.blendedBrdfs.insert(material.brdf);
             continue;

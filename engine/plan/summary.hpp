@@ -51,10 +51,13 @@ struct SurfaceFeatures {
     bool emission = false;
     bool vertexColors = false;
     AlphaMode alphaMode = AlphaMode::opaque;
+    bool transmits = false;  ///< seesThrough(): something of what lies behind shows, in the surface's colour
     auto operator<=>(const SurfaceFeatures&) const = default;
 
     const SurfaceTexture* texture(std::string_view slot) const;
     bool usesUv(int set) const;
+    /// Drawn over what lies behind it, after all that is not.
+    bool blended() const { return transmits || alphaMode == AlphaMode::blend; }
 };
 
 struct SceneSummary {
@@ -74,9 +77,19 @@ struct SceneSummary {
     std::map<LightType, int> shadowLights;  ///< that cast shadows, of each type
     int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
+    /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,
+    /// 1/sr, infinite where one has no bound, and then the model that has none.
+    double peak = 0.0;
+    std::string unbounded;
+    double reachWeight = 0.0;  ///< sum of lightReach()'s weights of point and spot lights
+    bool fogFallsOff = false;  ///< with height
+    bool fogGrey = false;      ///< alike in all channels
+    bool fogScatters = false;  ///< light of point and spot lights to the eye
     bool ambient = false;
     bool emission = false;
     bool opaque = false, masked = false, blended = false;
+    bool transmits = false;  ///< any of the blended ones
+    size_t blendedTriangles = 0;
     bool normalMaps = false, tangents = false, vertexColors = false, occlusion = false;
     bool uv[2] = {false, false};
     size_t triangles = 0, instances = 0, blendedInstances = 0;
@@ -93,6 +106,10 @@ struct SceneSummary {
 };
 
 SceneSummary summarise(const Scene& scene);
+
+/// Largest channel of a light's intensity to the power 3/5. Lights that may each take as much from a pixel as
+/// their weight's share of the sum have the least volume to light in sum.
+double reachWeight(const Light& light);
 
 /// What a material asks of a surface shader, with the vertex data that `primitive` brings. Occlusion textures
 /// count only where there is ambient light for them to act on.

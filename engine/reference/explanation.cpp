@@ -78,12 +78,12 @@ Explanation explain(const PixelIntegrator& integrator, const Scene& scene, int x
     const RayDifferentials differentials = pixelDifferentials(view);
     std::vector<SurfacePoint> points;
     integrator.tracer().surfacesAlong(ray, &differentials, points);
-    double remaining = 1.0;
+    glm::dvec3 remaining(1.0);
     for (SurfacePoint& point : points) {
         SurfaceShare& surface = result.surfaces.emplace_back();
         surface.point = std::move(point);
-        surface.weight = remaining * surface.point.alpha;
-        remaining *= 1.0 - surface.point.alpha;
+        surface.weight = (remaining.x + remaining.y + remaining.z) / 3.0 * surface.point.alpha;
+        remaining *= throughOf(surface.point, -glm::normalize(ray.direction));
     }
     for (SurfaceShare& surface : result.surfaces) {
         const SurfacePoint& point = surface.point;

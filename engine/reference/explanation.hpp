@@ -28,7 +28,8 @@ struct LightShare {
 struct SurfaceShare {
     SurfacePoint point;
     glm::dvec3 wo{0.0};   ///< to the eye, in the local frame
-    double weight = 0.0;  ///< of its radiance in the pixel's: its coverage times what is left in front of it
+    /// Of its radiance in the pixel's, mean of the channels: its coverage times what is left in front of it.
+    double weight = 0.0;
     glm::dvec3 ambient{0.0};  ///< reflected ambient radiance
     std::vector<LightShare> lights;
 };

@@ -1,25 +1,27 @@
 #include "reference/fog.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lobe::reference {
 
-glm::dvec3 fogTransmittance(const Fog& fog, double start, double rise, double length) {
-    if (length == 0.0) return glm::dvec3(1.0);
-    const double slope = fog.heightFalloff * std::abs(rise);
-    // Metres at the lower end's density that count as much as the whole way.
-    const double effective = slope > 0.0 ? -std::expm1(-slope * length) / slope : length;
-    const double lower = rise < 0.0 && fog.heightFalloff > 0.0 ? start + rise * length : start;
-    const double density = std::exp(-fog.heightFalloff * (lower - fog.height));
-    glm::dvec3 transmittance;
+FogOnRay fogOnRay(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction, double length) {
+    FogOnRay result;
+    if (!scene.fog) return result;
+    const Fog& fog = *scene.fog;
+    const glm::dvec3 depth = fogOpticalDepth(fog.medium(), origin.y, direction.y, length);
     for (int c = 0; c < 3; ++c) {
-        // A density of nothing over an endless way is nothing; an endless one of no extinction too.
-        const double depth =
-            fog.extinction[c] == 0.0 || density == 0.0 ? 0.0 : fog.extinction[c] * density * effective;
-        transmittance[c] = std::exp(-depth);
+        result.transmittance[c] = std::exp(-depth[c]);
+        result.radiance[c] = fog.radiance[c] * fogOpacity(depth[c]);
     }
-    return transmittance;
+    if (fog.scattering == glm::dvec3(0.0)) return result;
+    for (const Light& light : scene.lights) {
+        if (light.type != LightType::point && light.type != LightType::spot) continue;
+        FogLight source{light.position,  light.intensity,      light.range,
+                        light.direction, light.innerConeAngle, {}};
+        if (light.type == LightType::spot) source.outerConeAngle = light.outerConeAngle;
+        result.radiance += airlight(fog.medium(), source, origin, direction, length);
+    }
+    return result;
 }
 
 }  // namespace lobe::reference

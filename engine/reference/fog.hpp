@@ -1,13 +1,17 @@
-/// Fog between surface and eye (LOBE_fog).
+/// Fog between surface and eye (LOBE_fog), and the light of a scene's lamps that it scatters there.
 #pragma once
 
 #include "scene/scene.hpp"
 
 namespace lobe::reference {
 
-/// Transmittance exp(-optical depth) of a straight way of `length` metres (or infinity) that starts at world
-/// height `start` and rises by `rise` (-1 to 1) a metre. The exponential's mean is taken from the lower end,
-/// so that it does not overflow, and by expm1, so that nothing cancels.
-glm::dvec3 fogTransmittance(const Fog& fog, double start, double rise, double length);
+/// What fog does to a ray over some length.
+struct FogOnRay {
+    glm::dvec3 transmittance{1.0};
+    glm::dvec3 radiance{0.0};  ///< added: the fog's own, and the airlight of point and spot lights
+};
+
+/// Over the first `length` metres (or infinity) of a ray; its direction is unit. Nothing shadows the airlight.
+FogOnRay fogOnRay(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction, double length);
 
 }  // namespace lobe::reference

@@ -42,6 +42,14 @@ std::optional<EnvironmentMap> environmentOf(const Scene& scene) {
 
 }  // namespace
 
+glm::dvec3 throughOf(const SurfacePoint& surface, const glm::dvec3& toEye) {
+    glm::dvec3 through(1.0 - surface.alpha);
+    if (surface.brdf != nullptr && surface.brdf->transmittance)
+        through += surface.alpha * surface.brdf->transmittance(std::max(glm::dot(surface.normal, toEye), 0.0),
+                                                               surface.values());
+    return through;
+}
+
 glm::dvec3 PixelTruth::total() const {
     glm::dvec3 sum(0.0);
     for (const glm::dvec3& one : radiance)
@@ -78,13 +86,14 @@ PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& r
     PixelTruth truth;
     const double metres = glm::length(ray.direction);  // a unit of the ray
     const glm::dvec3 direction = ray.direction / metres;
-    double remaining = 1.0;  // what the layers so far let through
+    glm::dvec3 remaining(1.0);  // what the layers so far let through
+    double uncovered = 1.0;
     std::deque<Layer> layers;
-    const auto addFog = [&](double share, double distance) {
-        if (!scene_.fog) return glm::dvec3(share);
-        const glm::dvec3 clear = fogTransmittance(*scene_.fog, ray.origin.y, direction.y, distance);
-        truth.radiance[static_cast<size_t>(Source::fog)] += share * (1.0 - clear) * scene_.fog->radiance;
-        return share * clear;
+    // Adds the fog in front of what is at some distance, of which `share` is seen; what the fog leaves of it.
+    const auto addFog = [&](const glm::dvec3& share, double distance) {
+        const FogOnRay fog = fogOnRay(scene_, ray.origin, direction, distance);
+        truth.radiance[static_cast<size_t>(Source::fog)] += share * fog.radiance;
+        return fog.transmittance;
     };
     std::vector<SurfacePoint> surfaces;
     tracer_.surfacesAlong(ray, &differentials_, surfaces);
@@ -94,8 +103,11 @@ PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& r
             truth.normal = surface.brdf == nullptr ? surface.geometricNormal : surface.normal;
             truth.material = surface.material + 1;
         }
-        const glm::dvec3 weight = addFog(remaining * surface.alpha, surface.distance);
-        remaining *= 1.0 - surface.alpha;
+        const glm::dvec3 through = throughOf(surface, -direction);
+        const glm::dvec3 weight =
+            remaining * surface.alpha * addFog(remaining * (1.0 - through), surface.distance);
+        remaining *= through;
+        uncovered *= 1.0 - surface.alpha;
         truth.radiance[static_cast<size_t>(Source::emission)] += weight * surface.emission;
         if (surface.brdf == nullptr) continue;
         truth.radiance[static_cast<size_t>(Source::ambient)] +=
@@ -116,12 +128,13 @@ PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& r
         for (size_t source = 0; source < kSources; ++source)
             truth.radiance[source] += weight * exact[source];
     }
-    truth.coverage = 1.0 - remaining;
-    if (environment_ && scene_.environment->background && remaining > 0.0)
-        truth.radiance[static_cast<size_t>(Source::environment)] +=
-            addFog(remaining, kInfinity) * environment_->radiance(direction);
-    else if (remaining > 0.0)
-        (void)addFog(remaining, kInfinity);
+    truth.coverage = 1.0 - uncovered;
+    if (remaining != glm::dvec3(0.0)) {
+        const glm::dvec3 clear = addFog(remaining, kInfinity);
+        if (environment_ && scene_.environment->background)
+            truth.radiance[static_cast<size_t>(Source::environment)] +=
+                remaining * clear * environment_->radiance(direction);
+    }
 
     // The worst integral next, until the whole is good.
     const glm::dvec3 exact = truth.total();

@@ -47,6 +47,7 @@ struct SurfacePoint {
 
     double alpha = 1.0;  ///< coverage in 0..1; 1 of opaque and masked surfaces
     AlphaMode alphaMode = AlphaMode::opaque;
+    bool seenThrough = false;  ///< blended, or of a model that lets light through
     glm::dvec3 emission{0.0};  ///< radiance, W/(m^2 sr)
     double occlusion = 1.0;    ///< factor of ambient light; 1 where the scene has none
     int material = -1;         ///< index into Scene::materials

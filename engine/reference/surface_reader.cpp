@@ -94,6 +94,7 @@ SurfaceReader::SurfaceReader(const Scene& scene)
 SurfaceReader::Reading SurfaceReader::prepare(const Material& material) {
     Reading reading;
     reading.used = true;
+    reading.seenThrough = material.alphaMode == AlphaMode::blend || seesThrough(material);
     if (material.alphaMode != AlphaMode::opaque) reading.alpha = prepare(material.baseColorTexture, true);
     if (material.brdf == "unlit") {
         reading.emission = prepare(material.baseColorTexture, true);
@@ -200,6 +201,7 @@ SurfacePoint SurfaceReader::read(const Mesh& mesh, const Hit& hit, const Footpri
     point.brdf = reading.brdf;
     point.alpha = coverage(mesh, hit, footprint);
     point.alphaMode = material.alphaMode;
+    point.seenThrough = reading.seenThrough;
     point.material = mesh.primitive().material;
     point.instance = hit.instance;
     point.triangle = hit.triangle;

@@ -18,6 +18,8 @@ public:
     explicit SurfaceReader(const Scene& scene);
 
     AlphaMode alphaMode(const Mesh& mesh) const { return materialOf(mesh).alphaMode; }
+    /// Whether the ray goes on behind it: blended, or of a model that lets light through.
+    bool seenThrough(const Mesh& mesh) const { return readingOf(mesh).seenThrough; }
     /// Whether back faces are left out.
     bool oneSided(const Mesh& mesh) const { return !materialOf(mesh).doubleSided; }
     /// Whether every point of it blocks light whole.
@@ -38,6 +40,7 @@ private:
     /// What of a material is read from textures.
     struct Reading {
         bool used = false;
+        bool seenThrough = false;
         const Brdf* brdf = nullptr;
         std::vector<Slot> parameters;  ///< as Brdf::parameters
         Slot alpha, normal, occlusion, emission;

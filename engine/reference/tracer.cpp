@@ -169,8 +169,9 @@ void Tracer::State::intersect(const RTCIntersectFunctionNArguments* arguments) {
     Footprint footprint;
     if (query.differentials != nullptr)
         footprint = part.mesh.footprint(hit->triangle, query.origin, query.direction, *query.differentials);
-    const bool ends = reader.alphaMode(part.mesh) != AlphaMode::blend;
-    if (ends && reader.coverage(part.mesh, *hit, footprint) == 0.0) return;
+    const bool ends = !reader.seenThrough(part.mesh);
+    if (reader.alphaMode(part.mesh) != AlphaMode::blend && reader.coverage(part.mesh, *hit, footprint) == 0.0)
+        return;
     query.hits.emplace_back(*hit, footprint);
     if (!ends) return;
     query.tMax = hit->t;
@@ -269,7 +270,7 @@ void Tracer::surfacesAlong(const Ray& ray, const RayDifferentials* differentials
         point.t = hit.t;
         point.distance = hit.t * query.length;
         layers.push_back(std::move(point));
-        if (layers.back().alphaMode != AlphaMode::blend) break;
+        if (!layers.back().seenThrough) break;
     }
 }
 

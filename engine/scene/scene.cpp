@@ -27,6 +27,12 @@ glm::dvec3 radianceOf(const Light& light) {
     }
 }
 
+bool seesThrough(const Material& material) {
+    const Brdf* brdf = findBrdf(material.brdf);
+    return brdf != nullptr && brdf->transmittance &&
+           brdf->transmittance(1.0, material.values) != glm::dvec3(0.0);
+}
+
 Bounds Scene::bounds() const {
     std::vector<Bounds> local(primitives.size());
     for (size_t i = 0; i < primitives.size(); ++i)

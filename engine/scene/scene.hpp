@@ -10,6 +10,7 @@
 
 #include "image/image.hpp"
 #include "shading/brdf.hpp"
+#include "shading/fog.hpp"
 
 namespace lobe {
 
@@ -72,6 +73,10 @@ struct Material {
     glm::vec3 emission{0.0f};  ///< factor times emissive strength: radiance, W/(m^2 sr)
     TextureSlot emissionTexture;
 };
+
+/// Whether the material's model lets light through from behind, and the material any of it: such surfaces are drawn
+/// over what lies behind them.
+bool seesThrough(const Material& material);
 
 /// A triangle list. Arrays are empty or as long as `positions`.
 struct Primitive {
@@ -139,12 +144,16 @@ struct Environment {
 };
 
 /// Beer-Lambert transmittance of the way from surface to eye (LOBE_fog): sigma(y) = extinction
-/// exp(-heightFalloff (y - height)), and radiance (1 - T) added.
+/// exp(-heightFalloff (y - height)), and radiance (1 - T) added; and the light of lamps that it scatters to the eye.
 struct Fog {
     glm::dvec3 extinction{0.0};  ///< 1/m
     glm::dvec3 radiance{0.0};    ///< W/(m^2 sr)
     double heightFalloff = 0.0;  ///< 1/m
     double height = 0.0;         ///< world y, metres
+    glm::dvec3 scattering{0.0};  ///< 1/m, at most the extinction; 0 where density falls off with height
+    double anisotropy = 0.0;     ///< in (-1, 1): mean cosine of scattering (Henyey and Greenstein)
+
+    FogMedium medium() const { return {extinction, heightFalloff, height, scattering, anisotropy}; }
 };
 
 struct Camera {

@@ -199,7 +199,7 @@ void serialize(Archive& archive, Environment& environment) {
 
 template<typename Archive>
 void serialize(Archive& archive, Fog& fog) {
-    archive(fog.extinction, fog.radiance, fog.heightFalloff, fog.height);
+    archive(fog.extinction, fog.radiance, fog.heightFalloff, fog.height, fog.scattering, fog.anisotropy);
 }
 
 template<typename Archive>

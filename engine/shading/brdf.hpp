@@ -135,9 +135,19 @@ struct Brdf {
     /// of NAME_mirror in GLSL. Absent where the model has no such part.
     std::function<glm::dvec3(double, std::span<const double>)> mirror;
 
+    /// What a thin surface lets through of the light that comes straight from behind it, per channel, for
+    /// cos(theta) of the way to the eye: the twin of NAME_transmittance in GLSL. Absent in models that let
+    /// nothing through.
+    std::function<glm::dvec3(double, std::span<const double>)> transmittance;
+
     /// Width of the sharpest lobe that these values give, as the largest |d ln f / d theta_h| in 1/rad
     /// (algorithms: 2/alpha for GGX, sqrt(n) for Blinn-Phong, 2 sqrt(n) for Phong, 0 for Lambert).
     std::function<double(std::span<const double>)> lobeSharpness;
+
+    /// An upper bound of fCos over all directions, per channel, that does not fall where a parameter's value
+    /// rises within rgb parameters, and is largest at an end of the range of any other. Absent: none is
+    /// known, or the formula has none.
+    std::function<glm::dvec3(std::span<const double>)> peak;
 
     /// Lobes from which to draw wi for this wo (sampling.hpp). Absent: found from fCos.
     std::function<SamplingLobes(const glm::dvec3& wo, std::span<const double>)> samplingLobes;

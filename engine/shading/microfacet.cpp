@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 
 namespace lobe::shading {
 
@@ -28,6 +29,12 @@ std::vector<BrdfFactor> microfacetFactors(const Directions& d, std::span<const d
 
 glm::dvec3 microfacetAmbient(std::span<const double> values) {
     return rgbAt(values, 0) + rgbAt(values, 3) * fresnelReflectance(values.last(kFresnelValues), 1.0);
+}
+
+glm::dvec3 microfacetPeak(std::span<const double> values, double lobe) {
+    const auto type = static_cast<FresnelType>(values[values.size() - kFresnelValues]);
+    if (type == FresnelType::bands) return glm::dvec3(std::numeric_limits<double>::infinity());
+    return rgbAt(values, 0) / glm::pi<double>() + rgbAt(values, 3) * lobe;
 }
 
 SamplingLobes microfacetLobes(const glm::dvec3& wo, std::span<const double> values, SamplingLobe lobe) {

@@ -19,6 +19,9 @@ std::vector<BrdfFactor> microfacetFactors(const Directions& d, std::span<const d
 /// k_d + k_s F at normal incidence.
 glm::dvec3 microfacetAmbient(std::span<const double> values);
 
+/// Brdf::peak for a bound of D G / (4 cos(theta_o)). F is at most 1; in bands of wavelength there is none.
+glm::dvec3 microfacetPeak(std::span<const double> values, double lobe);
+
 /// Weights k_d and k_s F at wo; `lobe` says the rest.
 SamplingLobes microfacetLobes(const glm::dvec3& wo, std::span<const double> values, SamplingLobe lobe);
 

@@ -78,5 +78,28 @@ TEST(FogExtension, IsReadAndMayBeNone) {
     EXPECT_THAT(with("LOBE_fog", {{"heightFalloff", -1}}).refusal(), HasSubstr("heightFalloff: -1"));
 }
 
+TEST(FogExtension, ScatteringIsAPartOfExtinctionAndOfEvenFog) {
+    const Scene scene =
+        with("LOBE_fog", {{"extinction", {1, 2, 3}}, {"scattering", {1, 0.5, 0}}, {"anisotropy", -0.25}})
+            .import()
+            .scene;
+    ASSERT_TRUE(scene.fog.has_value());
+    EXPECT_EQ(scene.fog->scattering, glm::dvec3(1, 0.5, 0));
+    EXPECT_EQ(scene.fog->anisotropy, -0.25);
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_THAT(with("LOBE_fog", {{"extinction", {1, 1, 1}}, {"scattering", {1, 2, 1}}}).refusal(),
+                HasSubstr("extensions.LOBE_fog.scattering[1]: 2; expected at most the extinction"));
+    EXPECT_THAT(with("LOBE_fog", {{"extinction", {1, 1, 1}}, {"anisotropy", 1}}).refusal(),
+                HasSubstr("anisotropy: 1; expected"));
+    const Scene high =
+        with("LOBE_fog", {{"extinction", {1, 1, 1}}, {"scattering", {1, 1, 1}}, {"heightFalloff", 1}})
+            .import()
+            .scene;
+    EXPECT_EQ(high.fog->scattering, glm::dvec3(0.0));
+    ASSERT_EQ(high.warnings.size(), 1U);
+    EXPECT_THAT(high.warnings[0],
+                HasSubstr("LOBE_fog: scattering is supported in fog without heightFalloff only"));
+}
+
 }  // namespace
 }  // namespace lobe::test

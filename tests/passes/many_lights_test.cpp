@@ -87,6 +87,58 @@ TEST(Clusters, LightsWithAndWithoutRangeMix) {
         ASSERT_NEAR(lists.values[i], loop.values[i], budget * static_cast<double>(loop.values[i]));
 }
 
+/// Spheres of models that have a bound over a floor, with lights of very different intensities.
+Scene boundedScene(unsigned seed) {
+    Scene scene = floorWithLights(0, {});
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const char* model :
+         {"oren_nayar", "phong", "blinn_phong", "ggx", "beckmann_smith", "metallic_roughness"}) {
+        const int material = addMaterial(scene, model);
+        scene.materials.back().values = requireBrdf(model).fromMetallicRoughness(
+            {{unit(random), unit(random), unit(random)}, unit(random), 0.5 + 0.5 * unit(random)});
+        addInstance(scene, addSphere(scene, material, 24),
+                    glm::translate(glm::dmat4(1.0),
+                                   glm::dvec3(12.0 * unit(random) - 6.0, 1.0, 12.0 * unit(random) - 6.0)));
+    }
+    for (int i = 0; i < 60; ++i) {
+        const glm::dvec3 position(30.0 * unit(random) - 15.0, 0.3 + 3.0 * unit(random),
+                                  30.0 * unit(random) - 15.0);
+        const glm::dvec3 intensity =
+            std::pow(10.0, 2.0 * unit(random) - 4.0) * glm::dvec3(unit(random), unit(random), unit(random));
+        scene.lights.push_back(i % 3
+                                   ? point(position, intensity)
+                                   : spot(position, position - glm::dvec3(0.3, 1, 0.2), intensity, 0.4, 0.8));
+        if (i % 4 == 0) scene.lights.back().range = 1.0 + 9.0 * unit(random);
+    }
+    return scene;
+}
+
+TEST(LightThreshold, WhatIsLeftOutNeverExceedsIt) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        const Scene scene = boundedScene(seed);
+        const Quality all{.samples = 1, .gbufferBits = 32, .shadows = Shadows::none};
+        const Image full = render(scene, overview(), smallPicture(all));
+        double largestOfAll = 0.0;
+        for (const int threshold : {1, 10, 100}) {
+            Quality some = all;
+            some.lightThreshold = threshold;
+            const Image less = render(scene, overview(), smallPicture(some));
+            double largest = 0.0;
+            for (size_t i = 0; i < full.values.size(); ++i) {
+                const double error =
+                    static_cast<double>(full.values[i]) - static_cast<double>(less.values[i]);
+                // 60 terms in another order.
+                ASSERT_GE(error, -60 * 6e-8 * static_cast<double>(full.values[i]));
+                largest = std::max(largest, error);
+            }
+            ASSERT_LE(largest, threshold / 1000.0 + 1e-6) << "seed " << seed;
+            largestOfAll = std::max(largestOfAll, largest);
+        }
+        EXPECT_GT(largestOfAll, 0.0) << "nothing was left out";
+    }
+}
+
 TEST(Clusters, NoPointWithinRangeIsMissed) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

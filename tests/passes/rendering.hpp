@@ -95,7 +95,7 @@ inline Scene modelsAndLights() {
         scene.materials[static_cast<size_t>(material)].values =
             brdf.fromMetallicRoughness({{0.8, 0.5, 0.3}, 0.3, 0.5});
         const int sphere = addSphere(scene, material);
-        const glm::dvec3 position(0.95 * (number % 5) - 1.9, 0.95 - 0.95 * (number / 5), 0.0);
+        const glm::dvec3 position(0.95 * (number % 6) - 2.375, 0.95 - 0.95 * (number / 6), 0.0);
         addInstance(scene, sphere,
                     glm::scale(glm::translate(glm::dmat4(1.0), position), glm::dvec3(kModelRadius)));
         ++number;

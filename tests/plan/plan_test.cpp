@@ -54,6 +54,28 @@ TEST(Plan, SmallestSceneHasNothingToSpare) {
     EXPECT_FALSE(plan.masked);
 }
 
+TEST(Plan, LightsAreLeftOutOnlyBelowABound) {
+    Scene scene = litQuad();
+    for (int i = 0; i < 9; ++i)
+        scene.lights.push_back(test::point({0, 0, 1}, {32.0, 1.0, 1.0}));
+    EXPECT_EQ(planOf(scene).lightReach, 0.0);
+    EXPECT_FALSE(planOf(scene).clusteredPoint) << "no light has a range";
+    const FramePlan plan = planOf(scene, {.lightThreshold = 2});
+    EXPECT_TRUE(plan.clusteredPoint);
+    EXPECT_EQ(plan.globalPointLights, 0);
+    // 9 lights that share 0.002 alike, on white Lambert: 32 / pi / d^2 = 0.002 / 9.
+    EXPECT_NEAR(plan.lightReach * std::pow(32.0, 0.2), std::sqrt(32.0 / std::numbers::pi * 9.0 / 0.002),
+                1e-9);
+    EXPECT_THAT(plan.notes, testing::Contains(testing::HasSubstr("adds up to at most 0.002")));
+    EXPECT_THAT(planOf(scene, {.clusterFrom = 0, .lightThreshold = 2}).notes,
+                testing::Contains(testing::HasSubstr("clusters are off")));
+
+    test::addInstance(scene, test::addQuad(scene, test::addMaterial(scene, "ward"), 1.0f));
+    EXPECT_EQ(planOf(scene, {.lightThreshold = 2}).lightReach, 0.0);
+    EXPECT_THAT(planOf(scene, {.lightThreshold = 2}).notes,
+                testing::Contains(testing::HasSubstr("what ward reflects has no bound")));
+}
+
 TEST(Plan, SceneWithoutSpotLightsHasNoSpotPassAndNoSpotProgram) {
     Scene scene = litQuad();
     EXPECT_EQ(planOf(scene).pass("light.spot"), nullptr);

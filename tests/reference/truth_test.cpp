@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "reference/explanation.hpp"
-#include "reference/fog.hpp"
 #include "support/scenes.hpp"
 
 namespace lobe::reference {
@@ -180,9 +179,9 @@ TEST(Truth, BoxIsTheMeanOfThePixel) {
 
 TEST(Fog, IsBeerAndLambertsLaw) {
     const Fog even{{0.5, 1.0, 0.0}, glm::dvec3(1.0), 0.0, 0.0};
-    EXPECT_DOUBLE_EQ(fogTransmittance(even, 3.0, 0.4, 2.0).x, std::exp(-1.0));
-    EXPECT_EQ(fogTransmittance(even, 3.0, 0.4, 2.0).z, 1.0);
-    EXPECT_EQ(fogTransmittance(even, 0.0, 0.0, std::numeric_limits<double>::infinity()).y, 0.0);
+    EXPECT_DOUBLE_EQ(fogTransmittance(even.medium(), 3.0, 0.4, 2.0).x, std::exp(-1.0));
+    EXPECT_EQ(fogTransmittance(even.medium(), 3.0, 0.4, 2.0).z, 1.0);
+    EXPECT_EQ(fogTransmittance(even.medium(), 0.0, 0.0, std::numeric_limits<double>::infinity()).y, 0.0);
     const Fog high{glm::dvec3(0.5), glm::dvec3(1.0), 2.0, 1.0};
     for (const double rise : {-1.0, -0.3, -1e-9, 0.0, 1e-12, 1e-4, 0.7, 1.0}) {
         // Simpson's rule over the way.
@@ -195,14 +194,14 @@ TEST(Fog, IsBeerAndLambertsLaw) {
                                        : 2.0) *
                      std::exp(-2.0 * (start + rise * length * i / n - 1.0));
         depth *= 0.5 * length / n / 3.0;
-        EXPECT_NEAR(fogTransmittance(high, start, rise, length).x, std::exp(-depth), 1e-10) << rise;
+        EXPECT_NEAR(fogTransmittance(high.medium(), start, rise, length).x, std::exp(-depth), 1e-10) << rise;
     }
     const double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_NEAR(fogTransmittance(high, 1.0, 1.0, infinity).x, std::exp(-0.25), 1e-15);
-    EXPECT_EQ(fogTransmittance(high, 1.0, -0.1, infinity).x, 0.0);
+    EXPECT_NEAR(fogTransmittance(high.medium(), 1.0, 1.0, infinity).x, std::exp(-0.25), 1e-15);
+    EXPECT_EQ(fogTransmittance(high.medium(), 1.0, -0.1, infinity).x, 0.0);
     const Fog thick{glm::dvec3(1e6), glm::dvec3(1.0), 1e3, -1e9};
     for (const double rise : {-1.0, 0.0, 1.0})
-        EXPECT_TRUE(std::isfinite(fogTransmittance(thick, 1e6, rise, 1e9).x));
+        EXPECT_TRUE(std::isfinite(fogTransmittance(thick.medium(), 1e6, rise, 1e9).x));
 }
 
 TEST(Explanation, SharesSumToTheTruth) {

@@ -53,7 +53,7 @@ Scene fullScene() {
     scene.lights = {{"l", LightType::spot, {1, 2, 3}, {0, 1, 0}, {4, 5, 6}, 7.0, 0.1, 0.2}, Light{}};
     scene.lights.push_back({"t", LightType::tube, {}, {}, {}, {}, 0, 0, {0, 0, 1}, 1, 2, 3, 4});
     scene.environment = Environment{1, {1, 2, 3}, 4, glm::dmat3(1, 2, 3, 4, 5, 6, 7, 8, 9), false};
-    scene.fog = Fog{{1, 2, 3}, {4, 5, 6}, 7, 8};
+    scene.fog = Fog{{1, 2, 3}, {4, 5, 6}, 7, 8, {0.1, 0.2, 0.3}, 0.9};
     scene.cameras = {{"c", glm::dmat4(2), true, 0.5, 1.5, 2, 3, 4, 5.0}, Camera{}};
     scene.ambientRadiance = glm::dvec3(1, 2, 3);
     scene.warnings = {"careful"};
@@ -151,6 +151,8 @@ TEST(Serialize, KeepsGeometryLightsAndCameras) {
     EXPECT_EQ(copy.fog->radiance, scene.fog->radiance);
     EXPECT_EQ(copy.fog->heightFalloff, 7.0);
     EXPECT_EQ(copy.fog->height, 8.0);
+    EXPECT_EQ(copy.fog->scattering, scene.fog->scattering);
+    EXPECT_EQ(copy.fog->anisotropy, 0.9);
     ASSERT_EQ(copy.cameras.size(), 2U);
     EXPECT_EQ(copy.cameras[0].name, "c");
     EXPECT_EQ(copy.cameras[0].worldFromCamera, scene.cameras[0].worldFromCamera);

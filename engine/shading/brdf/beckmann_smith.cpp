@@ -59,6 +59,14 @@ Brdf beckmann_smith() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / values[6] : 0.0;
     };
+    // D is largest at the normal, or where tan^2 = 2 m^2 - 1; G / cos(theta_o) is below 1 / ((1 + Lambda)
+    // cos), which grows towards the horizon to 2 sqrt(pi) / m where m <= 1, and is at most 2 sqrt(pi) beyond.
+    brdf.peak = [](std::span<const double> values) {
+        const double m = values[6], pi = glm::pi<double>();
+        const double normal = 1.0 / (pi * m * m);
+        const double ring = m * m > 0.5 ? 4.0 * m * m * std::exp(1.0 / (m * m) - 2.0) / pi : 0.0;
+        return microfacetPeak(values, std::max(normal, ring) * std::sqrt(pi) / (2.0 * std::min(m, 1.0)));
+    };
     brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
         return microfacetLobes(wo, values, {LobeShape::gaussianSlopes, 0.0, values[6], values[6]});
     };

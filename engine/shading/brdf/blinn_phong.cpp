@@ -49,6 +49,11 @@ Brdf blinn_phong() {
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.peak = [](std::span<const double> values) {
+        const PhongValues p = phongValues(values);
+        return p.energy ? p.diffuse / glm::pi<double>() + p.specular * energyConstant(p.shininess)
+                        : p.diffuse + p.specular;
+    };
     brdf.samplingLobes = lobes;
     brdf.ambient = phongAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {

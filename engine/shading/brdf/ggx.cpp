@@ -75,6 +75,11 @@ Brdf ggx() {
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / std::min(values[6], values[7]) : 0.0;
     };
+    // D <= 1 / (pi ax ay), and the masking over 4 cos(theta_o) is at most 1 / (2 |(ax ox, ay oy, oz)|).
+    brdf.peak = [](std::span<const double> values) {
+        return microfacetPeak(values, 0.5 / (glm::pi<double>() * values[6] * values[7] *
+                                             std::min({values[6], values[7], 1.0})));
+    };
     brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
         return microfacetLobes(wo, values,
                                {LobeShape::ggxVisibleNormals, 0.0, values[6], values[7], values[8]});

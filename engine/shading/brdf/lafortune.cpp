@@ -79,6 +79,16 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     return f * d.wi.z;
 }
 
+/// Of each lobe: the largest coefficient to its power, as the sum of |wi_k wo_k| is at most 1.
+glm::dvec3 peak(std::span<const double> values) {
+    glm::dvec3 f = rgbAt(values, 0) / glm::pi<double>();
+    for (const LafortuneLobe& lobe : lobesOf(values.subspan(4)))
+        for (int c = 0; c < 3; ++c)
+            f[c] += std::pow(std::max({std::abs(lobe.cx[c]), std::abs(lobe.cy[c]), std::abs(lobe.cz[c])}),
+                             lobe.n[c]);
+    return f;
+}
+
 double sharpness(std::span<const double> values) {
     double n = 0.0;
     for (const LafortuneLobe& lobe : lobesOf(values.subspan(4)))
@@ -162,6 +172,7 @@ Brdf lafortune() {
     brdf.traits.usesTangent = true;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.peak = peak;
     brdf.samplingLobes = samplingLobes;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = sharpness;

@@ -19,6 +19,7 @@ Brdf lambert() {
     };
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
+    brdf.peak = [](std::span<const double> values) { return rgbAt(values, 0) / glm::pi<double>(); };
     brdf.samplingLobes = [](const glm::dvec3&, std::span<const double>) {
         SamplingLobes lobes;
         lobes.add({LobeShape::cosine});

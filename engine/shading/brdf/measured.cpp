@@ -143,6 +143,13 @@ Brdf measured() {
     brdf.traits.energyConserving = false;
     brdf.baseColorParameter = "scale";
     brdf.fCos = fCos;
+    brdf.peak = [](std::span<const double> values) {
+        const std::span<const double> table = values.subspan(kTableAt);
+        glm::dvec3 largest(0.0);
+        for (size_t row = 2; 4 * row + 4 <= table.size(); ++row)
+            largest = glm::max(largest, rgbAt(table, 4 * row));
+        return rgbAt(values, 0) * largest;
+    };
     brdf.ambient = [](std::span<const double> values) {
         return rgbAt(values, 0) * rgbAt(values, kTableAt + 4);
     };

@@ -84,6 +84,12 @@ Brdf metallic_roughness() {
     brdf.factors = factors;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double> values) { return 2.0 / alphaOf(values[4]); };
+    // As of ggx, with F at most 1.
+    brdf.peak = [](std::span<const double> values) {
+        const double alpha = alphaOf(values[4]);
+        return rgbAt(values, 0) * ((1.0 - values[3]) / glm::pi<double>()) +
+               0.5 / (glm::pi<double>() * alpha * alpha * alpha);
+    };
     brdf.samplingLobes = [](const glm::dvec3& wo, std::span<const double> values) {
         const glm::dvec3 f0 = glm::mix(glm::dvec3(kDielectricF0), rgbAt(values, 0), values[3]);
         const double fresnel = meanOf(f0 + (1.0 - f0) * std::pow(1.0 - wo.z, 5.0));

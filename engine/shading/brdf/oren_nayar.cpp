@@ -107,6 +107,11 @@ Brdf oren_nayar() {
     };
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
+    // Of the terms times cos(theta_i): tan(beta) cos(theta_i) <= 1 and tan((alpha + beta) / 2) cos(theta_i)
+    // <= 2, so full <= 1 + 0.45 + 2 x 0.125 + 2 x 0.17 and qualitative <= 1 + 0.45.
+    brdf.peak = [](std::span<const double> values) {
+        return rgbAt(values, 0) * ((values[4] == 0.0 ? 2.04 : 1.45) / kPi);
+    };
     brdf.samplingLobes = [](const glm::dvec3&, std::span<const double>) {
         SamplingLobes lobes;
         lobes.add({LobeShape::cosine});

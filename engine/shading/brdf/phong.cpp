@@ -50,6 +50,12 @@ Brdf phong() {
     brdf.traits.halfVectorLobe = false;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.peak = [](std::span<const double> values) {
+        const PhongValues p = phongValues(values);
+        const double pi = glm::pi<double>();
+        return p.energy ? p.diffuse / pi + p.specular * ((p.shininess + 2.0) / (2.0 * pi))
+                        : p.diffuse + p.specular;
+    };
     brdf.samplingLobes = lobes;
     brdf.ambient = phongAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {

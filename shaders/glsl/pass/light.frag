@@ -19,6 +19,8 @@ void main()
     LightReceiver receiver = light_receiver(gbuffer_position(z, ray), ray, z, frame);
 #ifdef SHADOWS
     receiver.geometric_normal = gbuffer_geometric_normal();
+    receiver.behind = 0.0;
 #endif
-    oRadiance = vec4(all_lights(receiver, gbuffer_read_params()), 0.0);
+    vec3 radiance = all_lights(receiver, gbuffer_read_params());
+    oRadiance = vec4(radiance, light_alpha(0.0));
 }

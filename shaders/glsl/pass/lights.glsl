@@ -1,6 +1,6 @@
-/// lights.glsl - sums the punctual lights of each type at a point.
+/// lights.glsl - sums the lights of each type at a point; those with a body: pass/area_lights.glsl.
 ///
-/// Each light is three (directional: two) texels of a buffer, in camera-relative world space. Loops are do-while behind
+/// Each punctual light is three (directional: two) texels of a buffer, in camera-relative world space. Loops are do-while behind
 /// a define, so that a type without lights costs nothing, also where both sides of a branch are executed.
 /// Lights that reach everything come first; those with a range are listed by cluster: tiles of 64 x 64 pixels and
 /// slices of depth.
@@ -16,6 +16,7 @@ struct LightReceiver {
     float z;        // distance along the view axis, m
 #ifdef SHADOWS
     vec3 geometric_normal;  // of the triangle, unit, world axes, towards the eye
+    float behind;           // what the surface lets through of light from its other side, 0..1
 #endif
 };
 
@@ -33,6 +34,24 @@ LightReceiver light_receiver(vec3 position, vec3 ray, float z, Frame frame)
 #ifdef SHADOWS
 #include "shadow/visibility.glsl"
 #endif
+
+/// Where lights cast rays, a driver may end the loop over them before the last: see ray_unfinished.
+void light_loop_ended(bool after_all)
+{
+#ifdef SHADOW_RAYS
+    ray_unfinished = ray_unfinished || !after_all;
+#endif
+}
+
+/// Infinite where a ray was cut short: the picture is then an error.
+float light_alpha(float alpha)
+{
+#ifdef SHADOW_RAYS
+    return ray_unfinished ? uintBitsToFloat(0x7f800000u) : alpha;
+#else
+    return alpha;
+#endif
+}
 
 vec3 light_reflected(LightReceiver r, MODEL_PARAMS params, vec3 wi_w)
 {
@@ -55,6 +74,7 @@ vec3 directional_lights(LightReceiver r, MODEL_PARAMS params)
 #endif
         sum += irradiance * light_reflected(r, params, light.xyz);
     } while (++i < uDirectionalEnd);
+    light_loop_ended(i >= uDirectionalEnd);
     return sum;
 }
 #endif
@@ -82,7 +102,7 @@ vec3 point_light(int i, LightReceiver r, MODEL_PARAMS params)
     vec3 to_light = light.xyz - r.position;
     PunctualGeometry g = punctual_geometry(to_light, light.w);
 #ifdef POINT_SHADOWS
-    g.attenuation *= light_visibility_point(intensity.w, r, g.wi, dot(to_light, g.wi));
+    g.attenuation *= light_visibility_point(intensity.w, r, g.wi, g.attenuation > 0.0 ? dot(to_light, g.wi) : 0.0);
 #endif
     return intensity.xyz * (g.attenuation * light_reflected(r, params, g.wi));
 }
@@ -97,6 +117,7 @@ vec3 point_lights(LightReceiver r, MODEL_PARAMS params)
     do
         sum += point_light(i, r, params);
     while (++i < uPointEnd);
+    light_loop_ended(i >= uPointEnd);
     return sum;
 }
 #endif
@@ -112,6 +133,7 @@ vec3 point_lights_of_cluster(LightReceiver r, MODEL_PARAMS params)
         do
             sum += point_light(int(texelFetch(uClusterIndices, i).x), r, params);
         while (++i < list.x + list.y);
+        light_loop_ended(i >= list.x + list.y);
     }
     return sum;
 }
@@ -135,7 +157,8 @@ vec3 spot_light(int i, LightReceiver r, MODEL_PARAMS params)
     PunctualGeometry g = punctual_geometry(to_light, light.w);
     float cone = spot_attenuation(axis.xyz, g.wi, intensity.w, axis.w);
 #ifdef SPOT_SHADOWS
-    cone *= light_visibility_spot(texelFetch(uSpotLights, SPOT_TEXELS * i + 3).w, r, g.wi, dot(to_light, g.wi));
+    cone *= light_visibility_spot(texelFetch(uSpotLights, SPOT_TEXELS * i + 3).w, r, g.wi,
+                                  g.attenuation * cone > 0.0 ? dot(to_light, g.wi) : 0.0);
 #endif
     return intensity.xyz * (g.attenuation * cone * light_reflected(r, params, g.wi));
 }
@@ -150,6 +173,7 @@ vec3 spot_lights(LightReceiver r, MODEL_PARAMS params)
     do
         sum += spot_light(i, r, params);
     while (++i < uSpotEnd);
+    light_loop_ended(i >= uSpotEnd);
     return sum;
 }
 #endif
@@ -165,9 +189,15 @@ vec3 spot_lights_of_cluster(LightReceiver r, MODEL_PARAMS params)
         do
             sum += spot_light(int(texelFetch(uClusterIndices, i).x), r, params);
         while (++i < list.x + list.y);
+        light_loop_ended(i >= list.x + list.y);
     }
     return sum;
 }
+#endif
+
+#if defined(RECT_LIGHTS) || defined(DISK_LIGHTS) || defined(SPHERE_LIGHTS) || defined(TUBE_LIGHTS)
+#define AREA_LIGHTS
+#include "pass/area_lights.glsl"
 #endif
 
 /// Light of every type that the defines name.
@@ -188,6 +218,9 @@ vec3 all_lights(LightReceiver r, MODEL_PARAMS params)
 #endif
 #ifdef SPOT_CLUSTERS
     sum += spot_lights_of_cluster(r, params);
+#endif
+#ifdef AREA_LIGHTS
+    sum += all_area_lights(r, params);
 #endif
     return sum;
 }

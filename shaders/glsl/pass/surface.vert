@@ -43,6 +43,10 @@ vec3 surface_unit(vec3 v)
     return m > 0.0 ? normalize(v / m) : vec3(0.0);
 }
 
+#ifdef PEELED
+invariant gl_Position;  // the layer is found by one program and shaded by another
+#endif
+
 void main()
 {
     vec4 position = uRelativeFromLocal * vec4(aPosition, 1.0);

@@ -1,0 +1,52 @@
+/// thin_transmission.glsl - glTF's model for a thin surface that lets light through. Registry name: thin_transmission.
+///
+/// value  f_r cos(theta_i) in 1/sr, f_r = (1 - F) (1 - transmission) c_diff / pi + F D V: metallic_roughness.glsl with a
+///        diffuse base that gives way to what lies behind
+/// frame  Dirs d: local, z = shading normal (common/dirs.glsl)
+/// params base_color    0..1  per channel, no unit
+///        metallic      0..1  no unit
+///        roughness     0..1  no unit: alpha = roughness^2
+///        transmission  0..1  no unit: of the dielectric's base
+/// domain as metallic_roughness.glsl
+/// source Khronos, KHR_materials_transmission; and as metallic_roughness.glsl
+/// stable as metallic_roughness.glsl
+/// error  as metallic_roughness.glsl
+/// twin   engine/shading/brdf/thin_transmission.cpp
+#include "brdf/metallic_roughness.glsl"
+
+struct ThinTransmissionParams { vec3 base_color; float metallic; float roughness; float transmission; };
+
+vec3 thin_transmission_f_cos(Dirs d, ThinTransmissionParams p)
+{
+    float alpha = max(p.roughness * p.roughness, METALLIC_ROUGHNESS_MIN_ALPHA);
+    float dielectric = max(1.0 - p.metallic, 0.0);
+    vec3 f0 = 0.04 * dielectric + p.base_color * p.metallic;
+    vec3 f90_minus_f0 = 0.96 * dielectric + (1.0 - p.base_color) * p.metallic;
+
+    vec3 s = d.wi - d.wo;
+    float vh = min(0.5 * sqrt(dot(d.h, d.h)), 1.0);
+    float w = min(0.25 * dot(s, s) / (1.0 + vh), 1.0);  // 1 - vh
+    float w2 = w * w;
+    vec3 fresnel = f0 + f90_minus_f0 * (w2 * w2 * w);
+    vec3 refracted = f90_minus_f0 * (vh * (1.0 + w * (1.0 + w * (1.0 + w * (1.0 + w)))));  // 1 - fresnel
+
+    vec3 diffuse = refracted * p.base_color * (dielectric * max(1.0 - p.transmission, 0.0) * INV_PI * d.wi.z);
+    vec3 f = diffuse + fresnel * metallic_roughness_lobe(d, alpha);
+    return d.wi.z > 0.0 && d.wo.z > 0.0 ? f : vec3(0.0);
+}
+
+vec3 thin_transmission_ambient(ThinTransmissionParams p)
+{
+    return p.base_color * max(1.0 - p.transmission * max(1.0 - p.metallic, 0.0), 0.0);
+}
+
+float thin_transmission_roughness(ThinTransmissionParams p) { return p.roughness; }
+
+/// What comes straight through, per channel; cosine = n.v: what the dielectric does not reflect, in the base's colour.
+vec3 thin_transmission_transmittance(float cosine, ThinTransmissionParams p)
+{
+    float w = clamp(1.0 - cosine, 0.0, 1.0);
+    float v = 1.0 - w;
+    float refracted = 0.96 * v * (1.0 + w * (1.0 + w * (1.0 + w * (1.0 + w))));  // 1 - F
+    return p.base_color * (max(1.0 - p.metallic, 0.0) * p.transmission * refracted);
+}
