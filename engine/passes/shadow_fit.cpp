@@ -174,13 +174,15 @@ ShadowProjection cubeFace(const glm::dvec3& position, int face, double sceneRadi
     return map;
 }
 
-double nearestCaster(const Scene& scene, const ShadowProjection& map, int size) {
+double nearestCaster(const Scene& scene, const ShadowProjection& map, int size,
+                     const std::optional<glm::dvec3>& facing) {
     const glm::dvec2 half = map.texel * (0.5 * size);
     std::vector<glm::dvec4> planes{{map.z, -map.reach}};
     for (const double sign : {-1.0, 1.0}) {
         planes.emplace_back(half.x * map.z + sign * map.x, 0.0);
         planes.emplace_back(half.y * map.z + sign * map.y, 0.0);
     }
+    if (facing) planes.emplace_back(*facing, -map.reach);
     double nearest = kInfinity;
     clippedTriangles(scene, map.origin, planes, true, [&](const Polygon& polygon) {
         for (const glm::dvec3& point : polygon)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "scene/camera.hpp"
@@ -61,7 +62,9 @@ ShadowProjection cubeFace(const glm::dvec3& position, int face, double sceneRadi
                           const ShadowFilter& filter);
 
 /// The least depth along the map's axis of what casts into a perspective map, m; infinite where nothing does.
-double nearestCaster(const Scene& scene, const ShadowProjection& map, int size);
+/// Of a light that shines to one side (`facing`, unit) what is on that side counts.
+double nearestCaster(const Scene& scene, const ShadowProjection& map, int size,
+                     const std::optional<glm::dvec3>& facing = {});
 
 inline constexpr int kMostCascades = 4;
 

@@ -46,6 +46,10 @@ private:
     std::vector<float> values_;
 };
 
+bool isFlat(LightType type) {
+    return type == LightType::rect || type == LightType::disk;
+}
+
 /// A turn of the taps, 0..1, that differs between the jittered samples of a frame: how far they are moved
 /// across a pixel.
 double turnOf(const View& view) {
@@ -73,19 +77,15 @@ bool same(const ShadowTile& a, const ShadowTile& b) {
 
 }  // namespace
 
-ShadowMaps::ShadowMaps(const Scene& scene, const FramePlan& plan, const LightBuffers& lights)
+ShadowMaps::ShadowMaps(const Scene& scene, const FramePlan& plan, const LightBuffers& lights,
+                       const BodyLights& bodies)
     : scene_(scene), planned_(plan.shadowMaps), filter_{planned_.filterSide} {
     if (planned_.layers() == 0) return;
     for (size_t i = 0; i < kTypes; ++i) {
         const auto type = static_cast<LightType>(i);
         if (plan.shadowOf(type) != PlannedShadow::maps) continue;
-        if (isPunctual(type)) {
-            for (const Light* light : lights.casting(type))
-                slots_[i].push_back({light, {}, {}, {}});
-        } else {
-            for (const Light& light : scene.lights)
-                if (light.type == type && light.castsShadow) slots_[i].push_back({&light, {}, {}, {}});
-        }
+        for (const Light* light : isPunctual(type) ? lights.casting(type) : bodies.casting(type))
+            slots_[i].push_back({light, {}, {}, {}});
     }
     makeTexture();
     placeLights();
@@ -137,7 +137,8 @@ void ShadowMaps::placeLights() {
                     slot.maps.push_back({cubeFace(light.position, face, radius, tile.size, filter_), tile});
                     if (!isPunctual(light.type))
                         slot.nearest[static_cast<size_t>(face)] =
-                            nearestCaster(scene_, slot.maps.back().projection, tile.size);
+                            nearestCaster(scene_, slot.maps.back().projection, tile.size,
+                                          isFlat(light.type) ? std::optional(light.direction) : std::nullopt);
                 }
                 ++cube;
             }

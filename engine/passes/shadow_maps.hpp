@@ -8,6 +8,7 @@
 
 #include "gl/objects.hpp"
 #include "gl/program.hpp"
+#include "passes/body_lights.hpp"
 #include "passes/light_buffers.hpp"
 #include "passes/shadow_fit.hpp"
 #include "plan/plan.hpp"
@@ -23,7 +24,8 @@ struct PlacedShadowMap {
 class ShadowMaps {
 public:
     /// Nothing is made where the plan has no maps. The scene is kept by reference.
-    ShadowMaps(const Scene& scene, const FramePlan& plan, const LightBuffers& lights);
+    ShadowMaps(const Scene& scene, const FramePlan& plan, const LightBuffers& lights,
+               const BodyLights& bodies);
 
     /// Fits the maps to what the view shows; returns those that must be drawn: all at first, later those
     /// whose projection has changed.

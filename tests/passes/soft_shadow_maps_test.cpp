@@ -16,7 +16,7 @@ constexpr double kHalf = 2.0;  ///< half side of the square of ground that is lo
 
 /// Visibility of a sphere light at a grid of points of the plane y = height: x and z from -kHalf to kHalf.
 constexpr const char* kFragment = R"(
-struct LightReceiver { vec3 position; vec3 geometric_normal; };
+struct LightReceiver { vec3 position; vec3 geometric_normal; float behind; };
 #include "shadow/soft_maps.glsl"
 uniform vec3 uOrigin, uAcross, uUp, uPlaneNormal;
 uniform float uRadius;
@@ -25,7 +25,7 @@ layout(location = 0) out vec4 oVisible;
 void main()
 {
     vec3 p = uOrigin + gl_FragCoord.x * uAcross + gl_FragCoord.y * uUp;
-    float v = shadow_maps_soft(uShadowSphere, 0.0, LightReceiver(p, uPlaneNormal), uRadius);
+    float v = shadow_maps_soft(uShadowSphere, 0.0, LightReceiver(p, uPlaneNormal, 0.0), uRadius);
     oVisible = vec4(v, 0.0, 0.0, 1.0);
 }
 )";
@@ -55,8 +55,10 @@ std::vector<double> drawn(const Scene& scene, const Light& light, const Setting&
     SurfaceDraws surfaces(lit, plan, capabilities, programs, tables);
     LightBuffers lights(lit, plan);
     ScreenInputs inputs(lit, plan, tables);
-    ShadowMaps maps(lit, plan, lights);
-    FrameResources resources{lit, plan, programs, targets, surfaces, lights, inputs, maps};
+    BodyLights bodies(lit, plan);
+    ShadowMaps maps(lit, plan, lights, bodies);
+    RayScene rays;
+    FrameResources resources{lit, plan, programs, targets, surfaces, lights, bodies, inputs, rays, maps, {}};
     ShadowMapPass pass(*plan.pass("shadow.maps"), resources);
     pass.prepare();
     if (capabilities.clipControl) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -215,6 +217,33 @@ TEST(SoftShadowMaps, SmallLightHasTheHardShadow) {
         dark += inside > 0.0 ? 1 : 0;
     }
     EXPECT_GT(dark, 300);
+}
+
+/// The whole way of a picture: plan, maps, light pass.
+TEST(SoftShadowMaps, PictureIsNearTheOneByRays) {
+    Scene scene = plates({{1.5, 0.6, 0.0}});
+    scene.lights = {sphereLight({0.2, 4.0, 0.1}, 0.5)};
+    Camera camera = lookAt({0, 1.4, 4.0}, {0, 0, 0}, 0.8);
+    camera.zNear = 0.01;
+    Quality quality{.samples = 4, .gbufferBits = 32};
+    quality.shadowMethod = ShadowMethod::maps;
+    quality.shadowSize = 1024;
+    const Image maps = render(scene, camera, smallPicture(quality));
+    quality.shadowMethod = ShadowMethod::rays;
+    quality.lightSamples = 64;
+    const Image rays = render(scene, camera, smallPicture(quality));
+    quality.shadows = Shadows::none;
+    const Image unshadowed = render(scene, camera, smallPicture(quality));
+    double off = 0.0, shadow = 0.0;
+    for (int i = 0; i < 96 * 64; ++i) {
+        const auto green = [i](const Image& image) {
+            return static_cast<double>(image.pixel(i % 96, i / 96)[1]);
+        };
+        off += std::abs(green(maps) - green(rays));
+        shadow += std::abs(green(unshadowed) - green(rays));
+    }
+    EXPECT_GT(shadow, 0.0);
+    EXPECT_LT(off, 0.08 * shadow);
 }
 
 }  // namespace
