@@ -45,6 +45,7 @@ void BodyLightPass::run(const View& view) {
         int unit = resources().inputs.bind(shader, targets(), view, brdf);
         unit = resources().rays.bind(shader, unit, view);
         resources().bodies.bind(shader, unit, plan().areaPoints);
+        resources().shadowMaps.bind(shader);
         resources().inputs.setMask(&brdf);
         draw(variant, shader);
     }

@@ -56,16 +56,24 @@ void BodyLights::update(const View& view, int frame) {
     for (size_t i = 0; i < kTypes; ++i) {
         if (lights_[i].empty()) continue;
         std::vector<float> data;
+        int casting = 0;
         for (const Light* kept : lights_[i]) {
             const Light light = drawn(*kept);
             const auto [a, b] = sizesOf(light);
             push(data, light.position - view.eye, inverseRange2(light.range));
-            push(data, radianceOf(light), shadows_[i] && light.castsShadow ? 0.0 : -1.0);
+            push(data, radianceOf(light), shadows_[i] && light.castsShadow ? casting++ : -1);
             push(data, light.axis, a);
             push(data, light.direction, b);
         }
         buffers_[i] = gl::makeTextureBuffer(GL_RGBA32F, data.data(), data.size() * sizeof(float));
     }
+}
+
+std::vector<const Light*> BodyLights::casting(LightType type) const {
+    std::vector<const Light*> result;
+    for (const Light* light : lights(type))
+        if (light->castsShadow) result.push_back(light);
+    return result;
 }
 
 void BodyLights::setLights(const gl::Program& program, LightType type, int first, int end) {

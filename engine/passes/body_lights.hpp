@@ -27,6 +27,9 @@ public:
     static void setLights(const gl::Program& program, LightType type, int first, int end);
     static void setPoints(const gl::Program& program, int from, int to, int points);
 
+    /// Those of a type that cast shadows, in the order of their slots.
+    std::vector<const Light*> casting(LightType type) const;
+
     int count(LightType type) const { return static_cast<int>(lights(type).size()); }
 
 private:

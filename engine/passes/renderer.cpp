@@ -62,7 +62,7 @@ struct Renderer::State {
               bodies(*scene, plan),
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
-              shadowMaps(*scene, plan, lights),
+              shadowMaps(*scene, plan, lights, bodies),
               resources{*scene, plan,   programs, targets,    surfaces, lights,
                         bodies, inputs, rays,     shadowMaps, {}} {
             for (const PlannedPass& planned : plan.passes) {

@@ -71,11 +71,12 @@ std::vector<glm::dvec4> planesOf(const View& view) {
 /// Calls `found` with what of each triangle is inside all planes, relative to `eye`.
 template<class Found>
 void clippedTriangles(const Scene& scene, const glm::dvec3& eye, const std::vector<glm::dvec4>& planes,
-                      const Found& found) {
+                      bool castersOnly, const Found& found) {
     std::vector<glm::dvec3> points;
     std::vector<unsigned> outside;  // of which planes, a bit each
     Polygon polygon, scratch;
     for (const Instance& instance : scene.instances) {
+        if (castersOnly && !instance.castsShadow) continue;
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         glm::dmat4 relativeFromLocal = instance.worldFromLocal;
         relativeFromLocal[3] -= glm::dvec4(eye, 0.0);
@@ -173,6 +174,23 @@ ShadowProjection cubeFace(const glm::dvec3& position, int face, double sceneRadi
     return map;
 }
 
+double nearestCaster(const Scene& scene, const ShadowProjection& map, int size,
+                     const std::optional<glm::dvec3>& facing) {
+    const glm::dvec2 half = map.texel * (0.5 * size);
+    std::vector<glm::dvec4> planes{{map.z, -map.reach}};
+    for (const double sign : {-1.0, 1.0}) {
+        planes.emplace_back(half.x * map.z + sign * map.x, 0.0);
+        planes.emplace_back(half.y * map.z + sign * map.y, 0.0);
+    }
+    if (facing) planes.emplace_back(*facing, -map.reach);
+    double nearest = kInfinity;
+    clippedTriangles(scene, map.origin, planes, true, [&](const Polygon& polygon) {
+        for (const glm::dvec3& point : polygon)
+            nearest = std::min(nearest, glm::dot(point, map.z));
+    });
+    return nearest;
+}
+
 void DirectionalFit::Box::add(const glm::dvec3& point) {
     lower = glm::min(lower, point);
     upper = glm::max(upper, point);
@@ -199,7 +217,7 @@ DirectionalFit::Box DirectionalFit::visible(const View& view, double& nearest, d
     nearest = kInfinity;
     farthest = 0.0;
     const glm::dvec3 shift = view.eye - pivot_;
-    clippedTriangles(scene_, view.eye, planesOf(view), [&](const Polygon& polygon) {
+    clippedTriangles(scene_, view.eye, planesOf(view), false, [&](const Polygon& polygon) {
         for (const glm::dvec3& point : polygon) {
             const double z = glm::dot(point, view.forward);
             nearest = std::min(nearest, z);
@@ -220,7 +238,7 @@ std::vector<DirectionalFit::Box> DirectionalFit::slices(const View& view,
         return static_cast<size_t>(above - edges.begin()) - 1;
     };
     Polygon part, scratch;
-    clippedTriangles(scene_, view.eye, planesOf(view), [&](const Polygon& polygon) {
+    clippedTriangles(scene_, view.eye, planesOf(view), false, [&](const Polygon& polygon) {
         double low = kInfinity, high = 0.0;
         for (const glm::dvec3& point : polygon) {
             low = std::min(low, glm::dot(point, view.forward));

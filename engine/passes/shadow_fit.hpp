@@ -6,6 +6,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "scene/camera.hpp"
@@ -59,6 +60,11 @@ ShadowProjection fitSpot(const Light& light, double sceneRadius, int size, const
 /// cyclic order.
 ShadowProjection cubeFace(const glm::dvec3& position, int face, double sceneRadius, int size,
                           const ShadowFilter& filter);
+
+/// The least depth along the map's axis of what casts into a perspective map, m; infinite where nothing does.
+/// Of a light that shines to one side (`facing`, unit) what is on that side counts.
+double nearestCaster(const Scene& scene, const ShadowProjection& map, int size,
+                     const std::optional<glm::dvec3>& facing = {});
 
 inline constexpr int kMostCascades = 4;
 

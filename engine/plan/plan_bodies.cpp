@@ -67,7 +67,7 @@ void Planner::planBodyLights() {
     bool soft = false;
     for (const auto& [type, count] : scene_.bodyLights) {
         all += count;
-        const bool shadowed = plan_.shadowOf(type) != PlannedShadow::none;
+        const bool shadowed = plan_.shadowOf(type) == PlannedShadow::rays;
         soft |= shadowed && plan_.quality.shadows == Shadows::soft;
         plan_.lightGroups.push_back(std::string(nameOf(type)) + ": " + plural(count, "light") +
                                     ", one loop over all" + (models.empty() ? "" : "; " + joined(models)));
@@ -108,7 +108,13 @@ Planner::Defines Planner::bodyDefines(const std::string& model, LightType type) 
     const bool hard = plan_.quality.shadows == Shadows::hard;
     for (const auto& [kind, count] : scene_.bodyLights)
         if (kind == type || mirrored) defines[std::string(defineOf(kind)) + "_LIGHTS"] = "1";
-    if (shadowed) {
+    const bool maps = plan_.shadowOf(type) == PlannedShadow::maps;
+    if (maps) {
+        defines["SHADOWS"] = "1";
+        defines["AREA_MAP_SHADOWS"] = "1";
+        if (hard) defines["AREA_POINT_SHADOWS"] = "1";
+        shadowMapDefines(defines, type);
+    } else if (shadowed) {
         defines["SHADOWS"] = "1";
         defines[mirrored || !hard ? "AREA_SHADOWS" : "AREA_HARD_SHADOWS"] = "1";
         rayDefines(defines);
@@ -122,7 +128,7 @@ Planner::Defines Planner::bodyDefines(const std::string& model, LightType type) 
         defines["AREA_ANALYTIC"] = "1";
         defines["AREA_LAMBERT"] = "1";
     }
-    if (area.method == AreaMethod::sampled || (shadowed && !hard)) defines["AREA_SAMPLED"] = "1";
+    if (area.method == AreaMethod::sampled || (shadowed && !maps && !hard)) defines["AREA_SAMPLED"] = "1";
     return defines;
 }
 

@@ -31,6 +31,8 @@ void Planner::planShadowMaps() {
     const int wide = casting(LightType::spot) > 0 ? scene_.wideShadowSpots : 0;
     maps.whole = casting(LightType::directional) + casting(LightType::spot) - wide;
     maps.cubes = casting(LightType::point) + wide;
+    for (const auto& [type, lights] : scene_.bodyLights)
+        maps.cubes += casting(type);
     if (maps.layers() == 0) {
         const std::string reason =
             plan_.anyShadow() ? "all shadows are found by rays" : "no shadow is sought";
@@ -50,7 +52,7 @@ void Planner::planShadowMaps() {
             ": a layer each, or a quarter of it for each of four depths of the view");
     say(casting(LightType::spot) - wide,
         plural(casting(LightType::spot) - wide, "spot light") + ": a layer each");
-    say(maps.cubes, plural(maps.cubes, wide > 0 ? "point or wide spot light" : "point light") +
+    say(maps.cubes, std::to_string(maps.cubes) + " of points, wide spots or lights with a body" +
                         ": six faces of a cube, a quarter of a layer each");
     addChannel("shadow.maps", "DEPTH_COMPONENT32F", "depth from the light; " + holds,
                plural(maps.layers(), "layer") + " of " + sizeText(maps.size) + ", " +
@@ -106,6 +108,7 @@ void Planner::planShadowMapSize() {
 void Planner::shadowMapDefines(Defines& defines, LightType type) const {
     if (plan_.shadowOf(type) != PlannedShadow::maps) return;
     defines["SHADOW_SIDE"] = std::to_string(plan_.shadowMaps.filterSide);
+    if (!isPunctual(type)) defines["SHADOW_TAPS"] = std::to_string(plan_.quality.shadowTaps);
     if (type == LightType::spot && scene_.wideShadowSpots > 0) defines["WIDE_SPOT_SHADOWS"] = "1";
 }
 

@@ -57,8 +57,12 @@ void Planner::noteRays() {
         leaveOut("program part", "holes and dimming of rays", "all surfaces that cast shadows are opaque");
 }
 
-/// Points of a body have no common view from which a map could be drawn: each gets a ray.
+/// Points of a body have no common view from which a map could be drawn: each gets a ray, or all together a
+/// guess from the map about its centre.
 void Planner::planBodyShadows() {
+    const bool mirrors = std::any_of(
+        scene_.surfaces.begin(), scene_.surfaces.end(),
+        [this](const SurfaceFeatures& f) { return showsBodies(f.brdf) && !scattersLight(f.brdf); });
     for (const auto& [type, lights] : scene_.bodyLights) {
         const bool shows = std::any_of(scene_.surfaces.begin(), scene_.surfaces.end(),
                                        [this](const SurfaceFeatures& f) { return showsBodies(f.brdf); });
@@ -69,10 +73,21 @@ void Planner::planBodyShadows() {
             leaveOut("shadow", nameOf(type), reason);
             continue;
         }
+        if (plan_.quality.shadowMethod == ShadowMethod::maps && !mirrors) {
+            plan_.shadows[type] = PlannedShadow::maps;
+            plan_.notes.push_back(
+                std::string("shadows of ") + nameOf(type) + " lights: maps about their centres, " +
+                (plan_.quality.shadows == Shadows::hard
+                     ? "as of points"
+                     : "filtered as wide as what blocks them suggests: right for one depth of blockers"));
+            continue;
+        }
         requireRays();
-        plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: rays, " +
-                              (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
-                                                                      : "one to each point on them"));
+        plan_.notes.push_back(
+            std::string("shadows of ") + nameOf(type) + " lights: rays, " +
+            (mirrors && plan_.quality.shadowMethod == ShadowMethod::maps ? "as mirrors need them, " : "") +
+            (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
+                                                    : "one to each point on them"));
     }
 }
 

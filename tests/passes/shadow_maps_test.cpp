@@ -361,7 +361,7 @@ TEST(ShadowMaps, AreDrawnOnceForSamplesAndForCamerasThatSeeTheSame) {
     const FramePlan plan = planFrame(summarise(scene), mapped(), capabilitiesOf(eglContext().info()));
     eglContext().makeCurrent();
     const LightBuffers lights(scene, plan);
-    ShadowMaps made(scene, plan, lights);
+    ShadowMaps made(scene, plan, lights, BodyLights(scene, plan));
     const auto view = [](const glm::dvec3& eye, glm::dvec2 jitter = {}) {
         Camera camera = lookAt(eye, {0, 0.5, 0}, 1.4);
         camera.zNear = 0.01;

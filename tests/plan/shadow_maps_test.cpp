@@ -143,5 +143,28 @@ TEST(PlanShadowMaps, MoreLightsThanLayersAreRefused) {
     }
 }
 
+TEST(PlanShadowMaps, LightsWithABodyHaveCubesWhereMapsAreAskedFor) {
+    Light sphere = point({0, 2, 0}, {1, 1, 1});
+    sphere.type = LightType::sphere;
+    sphere.radius = 0.2;
+    Scene scene = sphereScene({sphere});
+    const FramePlan soft = planned(scene, mapped(1024, 32));
+    EXPECT_EQ(soft.shadowOf(LightType::sphere), PlannedShadow::maps);
+    EXPECT_EQ(soft.shadowMaps.cubes, 1);
+    EXPECT_FALSE(soft.rays);
+    const auto& defines = soft.pass("light.sphere")->variants.front().defines;
+    EXPECT_EQ(defines.at("SHADOW_TAPS"), "32");
+    EXPECT_TRUE(defines.contains("AREA_MAP_SHADOWS"));
+    EXPECT_FALSE(defines.contains("AREA_POINT_SHADOWS"));
+    EXPECT_THAT(notes(soft), HasSubstr("shadows of sphere lights: maps about their centres"));
+    Quality hard = mapped(1024);
+    hard.shadows = Shadows::hard;
+    EXPECT_TRUE(
+        planned(scene, hard).pass("light.sphere")->variants.front().defines.contains("AREA_POINT_SHADOWS"));
+    // A mirror shows one point of the light: that takes a ray.
+    addInstance(scene, addSphere(scene, addMaterial(scene, "mirror"), 4));
+    EXPECT_EQ(planned(scene, mapped(1024)).shadowOf(LightType::sphere), PlannedShadow::rays);
+}
+
 }  // namespace
 }  // namespace lobe::test

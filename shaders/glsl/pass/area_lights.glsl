@@ -3,7 +3,8 @@
 /// AREA_ANALYTIC: the whole light in closed form (pass/area_reflected.glsl). AREA_SAMPLED: points on it, each with the
 /// model's value and, with AREA_SHADOWS, a ray of its own. Both: the closed form, times the share of the points' light
 /// that arrives, so that only penumbrae are noisy; none of it where no point lights the surface. AREA_HARD_SHADOWS: one
-/// ray to the centre. MIRRORED_LIGHTS: what an ideal mirror shows of them.
+/// ray to the centre. AREA_MAP_SHADOWS: by a shadow map about the centre, as soft as of a sphere that is as large seen
+/// from the front; with AREA_POINT_SHADOWS as of a point. MIRRORED_LIGHTS: what an ideal mirror shows of them.
 ///
 /// Points: a lattice whose first 2^m points are a lattice for every m (Hickernell et al., "Extensible lattice sequences",
 /// SIAM J. Sci. Comput. 22(3), 2000; generator 1, 182667 of Cools, Kuo, Nuyens, ibid. 28(6), 2006), shifted from pixel to
@@ -39,6 +40,17 @@ float area_center_visible(AreaLight light, LightReceiver r)
 {
     float d = length(light.center);
     return light_visibility_by_ray(light.slot, r, light.center / max(d, 1e-30), d);
+}
+#endif
+
+#ifdef AREA_MAP_SHADOWS
+/// `area`: of the light from the front, m^2.
+float area_map_visible(int first, AreaLight light, LightReceiver r, float area)
+{
+#ifdef AREA_POINT_SHADOWS
+    area = 0.0;
+#endif
+    return shadow_maps_soft(first, light.slot, r, sqrt(area / PI));
 }
 #endif
 
@@ -108,18 +120,30 @@ vec3 area_arriving(AreaTally tally, vec3 whole)
 
 #ifdef RECT_LIGHTS
 uniform samplerBuffer uRectLights;
+#ifdef AREA_MAP_SHADOWS
+uniform int uShadowRect;
+#endif
 uniform int uRectFirst, uRectEnd;
 #endif
 #ifdef DISK_LIGHTS
 uniform samplerBuffer uDiskLights;
+#ifdef AREA_MAP_SHADOWS
+uniform int uShadowDisk;
+#endif
 uniform int uDiskFirst, uDiskEnd;
 #endif
 #ifdef SPHERE_LIGHTS
 uniform samplerBuffer uSphereLights;
+#ifdef AREA_MAP_SHADOWS
+uniform int uShadowSphere;
+#endif
 uniform int uSphereFirst, uSphereEnd;
 #endif
 #ifdef TUBE_LIGHTS
 uniform samplerBuffer uTubeLights;
+#ifdef AREA_MAP_SHADOWS
+uniform int uShadowTube;
+#endif
 uniform int uTubeFirst, uTubeEnd;
 #endif
 
@@ -217,6 +241,9 @@ vec3 rect_light(int i, LightReceiver r, MODEL_PARAMS params)
 #ifdef AREA_HARD_SHADOWS
     reflected *= area_center_visible(light, r);
 #endif
+#ifdef AREA_MAP_SHADOWS
+    reflected *= area_map_visible(uShadowRect, light, r, 4.0 * light.a * light.b);
+#endif
     return light.radiance * reflected;
 }
 
@@ -270,6 +297,9 @@ vec3 disk_light(int i, LightReceiver r, MODEL_PARAMS params)
 #endif
 #ifdef AREA_HARD_SHADOWS
     reflected *= area_center_visible(light, r);
+#endif
+#ifdef AREA_MAP_SHADOWS
+    reflected *= area_map_visible(uShadowDisk, light, r, PI * light.a * light.a);
 #endif
     return light.radiance * reflected;
 }
@@ -325,6 +355,9 @@ vec3 sphere_light(int i, LightReceiver r, MODEL_PARAMS params)
 #ifdef AREA_HARD_SHADOWS
     reflected *= area_center_visible(light, r);
 #endif
+#ifdef AREA_MAP_SHADOWS
+    reflected *= area_map_visible(uShadowSphere, light, r, PI * light.a * light.a);
+#endif
     return light.radiance * reflected;
 }
 
@@ -378,6 +411,9 @@ vec3 tube_light(int i, LightReceiver r, MODEL_PARAMS params)
 #endif
 #ifdef AREA_HARD_SHADOWS
     reflected *= area_center_visible(light, r);
+#endif
+#ifdef AREA_MAP_SHADOWS
+    reflected *= area_map_visible(uShadowTube, light, r, (4.0 * light.a + PI * light.b) * light.b);
 #endif
     return light.radiance * reflected;
 }

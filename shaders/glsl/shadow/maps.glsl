@@ -121,10 +121,11 @@ ShadowLookup shadow_lookup_cube(int record, vec3 p, vec3 n)
 }
 
 /// Light from behind the receiver's triangle has to pass it.
-float shadow_visibility(float slot, ShadowLookup look, vec3 n, vec3 wi_w)
+float shadow_visibility(float slot, ShadowLookup look, LightReceiver r, vec3 wi_w)
 {
-    float lit = slot < 0.0 || dot(n, wi_w) > 0.0 ? 1.0 : 0.0;
-    if (slot >= 0.0 && lit > 0.0 && look.inside)
+    bool facing = dot(r.geometric_normal, wi_w) > 0.0;
+    float lit = slot < 0.0 || facing ? 1.0 : r.behind;
+    if (slot >= 0.0 && facing && look.inside)
         lit = shadow_filtered(look.at, look.layer, look.depth);
     return lit;
 }
@@ -139,7 +140,7 @@ float shadow_maps_directional(float slot, LightReceiver r, vec3 wi_w)
     vec3 ends = texelFetch(uShadowRecords, record).xyz;
     int cascade = int(dot(step(ends, vec3(r.z)), vec3(1.0)));
     return shadow_visibility(slot, shadow_lookup_parallel(record + 1 + 5 * cascade, r.position, r.geometric_normal),
-                             r.geometric_normal, wi_w);
+                             r, wi_w);
 }
 #endif
 
@@ -149,7 +150,7 @@ uniform int uShadowPoint;
 float shadow_maps_point(float slot, LightReceiver r, vec3 wi_w)
 {
     return shadow_visibility(slot, shadow_lookup_cube(uShadowPoint + 2 * int(max(slot, 0.0)), r.position, r.geometric_normal),
-                             r.geometric_normal, wi_w);
+                             r, wi_w);
 }
 #endif
 
@@ -164,6 +165,6 @@ float shadow_maps_spot(float slot, LightReceiver r, vec3 wi_w)
     if (texelFetch(uShadowRecords, record + 3).w > 0.0)
         look = shadow_lookup_cube(record, r.position, r.geometric_normal);
 #endif
-    return shadow_visibility(slot, look, r.geometric_normal, wi_w);
+    return shadow_visibility(slot, look, r, wi_w);
 }
 #endif

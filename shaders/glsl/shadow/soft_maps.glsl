@@ -2,7 +2,8 @@
 ///
 /// value  0..1: of a sphere about the centre of a cube of maps
 /// frame  world axes, relative to the eye, m
-/// params record  of the cube: as in maps.glsl, then the inverse of the nearest depth on each face, 1/m, 0 where nothing is
+/// params record  of the cube, 5 texels: two as in maps.glsl, then for x, y, z the inverse of the least depth of what casts
+///        towards + and -, 1/m, 0 where nothing is
 ///        radius  of the sphere, m
 /// domain any finite point and radius; where nothing is between, and at the centre itself, 1
 /// source Fernando, "Percentage-closer soft shadows", SIGGRAPH sketches 2005; disc: Vogel 1979
@@ -95,4 +96,13 @@ float shadow_soft(int record, vec3 p, vec3 n, float radius)
         direction = vec2(direction.x * golden.x - direction.y * golden.y, direction.x * golden.y + direction.y * golden.x);
     } while (++i < SHADOW_TAPS);
     return blockers > 0.0 ? 1.0 - dark / float(SHADOW_TAPS) : 1.0;
+}
+
+/// Of the light with a body whose shadow is in `slot`, counted from the first record of its type.
+float shadow_maps_soft(int first, float slot, LightReceiver r, float radius)
+{
+    float visible = 1.0;
+    if (slot >= 0.0)
+        visible = shadow_soft(first + 5 * int(slot), r.position, r.geometric_normal, radius);
+    return visible;
 }

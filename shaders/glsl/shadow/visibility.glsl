@@ -19,6 +19,9 @@ float light_visibility_by_ray(float slot, LightReceiver r, vec3 wi_w, float dist
 #if defined(DIRECTIONAL_SHADOW_MAPS) || defined(POINT_SHADOW_MAPS) || defined(SPOT_SHADOW_MAPS)
 #include "shadow/maps.glsl"
 #endif
+#ifdef AREA_MAP_SHADOWS
+#include "shadow/soft_maps.glsl"
+#endif
 
 #if defined(DIRECTIONAL_SHADOW_RAYS)
 float light_visibility_directional(float slot, LightReceiver r, vec3 wi_w)
