@@ -1,12 +1,15 @@
 // lobe-bench: each pass of each scene against its floor, both measured in this process, as ratios.
 //
 //   lobe-bench [--assets DIR] [--json FILE] [--resolution W,H] [--frames N] [--backend NAME]
-//   lobe-bench models [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
+//   lobe-bench shadows [--scene FILE]... [--json FILE]   a shadowed light against the same light without
+//   shadow lobe-bench area [--json FILE]   a light with a body against a point light lobe-bench models
+//   [--json FILE] [--rounds N] [--backend NAME]   every model against its textbook form
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "area_lights.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "measure/floor.hpp"
@@ -15,6 +18,7 @@
 #include "plan/summary.hpp"
 #include "scene/load.hpp"
 #include "scenes.hpp"
+#include "shadows.hpp"
 
 namespace lobe::bench {
 namespace {
@@ -133,6 +137,74 @@ void runModels(const std::string& backend, const std::string& json, int rounds) 
     writeJson(json, report);
 }
 
+void print(const ShadowTime& time) {
+    std::printf("%-28s %9zu %-12s %-6s %9.1f %11.1f %7.2f %9.0f\n", time.scene.c_str(), time.triangles,
+                time.light.c_str(), time.method.c_str(), time.plain, time.shadowed, time.ratio, time.setUp);
+    std::fflush(stdout);
+}
+
+struct ShadowRun {
+    std::vector<std::string> scenes;
+    std::string json, backend = "auto";
+    std::vector<int> resolution = {640, 360};
+    int rounds = 5;
+};
+
+void runShadows(const ShadowRun& settings) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(settings.backend)});
+    std::vector<Scene> scenes;
+    SceneLoader loader;
+    for (const std::string& file : settings.scenes) {
+        Scene scene = loader.load(file);
+        if (scene.cameras.empty())
+            scene.cameras.push_back(framingCamera(
+                scene.bounds(), static_cast<double>(settings.resolution[0]) / settings.resolution[1]));
+        scenes.push_back(std::move(scene));
+    }
+    std::printf("%s, %s, %dx%d, ns a light and pixel, least of %d rounds\n", context->info().renderer.c_str(),
+                context->info().version.c_str(), settings.resolution[0], settings.resolution[1],
+                settings.rounds);
+    std::printf("%-28s %9s %-12s %-6s %9s %11s %7s %9s\n", "scene", "triangles", "light", "method", "plain",
+                "shadowed", "ratio", "setup ms");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    for (const ShadowTime& time :
+         shadowTimes(*context, scenes, settings.resolution[0], settings.resolution[1], settings.rounds,
+                     [](const ShadowTime& done) { print(done); }))
+        report["results"].push_back({{"scene", time.scene},
+                                     {"triangles", time.triangles},
+                                     {"light", time.light},
+                                     {"method", time.method},
+                                     {"plain_ns", time.plain},
+                                     {"shadowed_ns", time.shadowed},
+                                     {"ratio", time.ratio},
+                                     {"setup_ms", time.setUp}});
+    writeJson(settings.json, report);
+}
+
+void runAreaLights(const ShadowRun& settings) {
+    const auto context = gl::Context::create({.backend = gl::parseBackend(settings.backend)});
+    const int width = settings.resolution[0], height = settings.resolution[1];
+    std::printf("%s, %s, %dx%d, ns a light and pixel, least of %d rounds\n", context->info().renderer.c_str(),
+                context->info().version.c_str(), width, height, settings.rounds);
+    std::printf("%-10s %-8s %-12s %9s %9s %7s\n", "model", "light", "method", "point", "body", "ratio");
+    nlohmann::json report = {
+        {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
+    const auto print = [](const AreaLightTime& time) {
+        std::printf("%-10s %-8s %-12s %9.1f %9.1f %7.2f\n", time.model.c_str(), time.light.c_str(),
+                    time.method.c_str(), time.point, time.body, time.ratio);
+        std::fflush(stdout);
+    };
+    for (const AreaLightTime& time : areaLightTimes(*context, width, height, settings.rounds, print))
+        report["results"].push_back({{"model", time.model},
+                                     {"light", time.light},
+                                     {"method", time.method},
+                                     {"point_ns", time.point},
+                                     {"body_ns", time.body},
+                                     {"ratio", time.ratio}});
+    writeJson(settings.json, report);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Passes against their floors, measured in one process");
     std::string assets, json, backend = "auto";
@@ -141,6 +213,19 @@ int run(int argc, char** argv) {
     models->add_option("--json", json, "write the results here as well");
     models->add_option("--backend", backend, "auto, egl or osmesa");
     models->add_option("--rounds", rounds, "times that each is measured")->check(CLI::Range(1, 1000));
+    ShadowRun shadowRun;
+    CLI::App* shadows = app.add_subcommand("shadows", "a shadowed light against the same light without");
+    shadows->add_option("--scene", shadowRun.scenes, "glTF files to measure beside the generated scenes");
+    shadows->add_option("--json", shadowRun.json, "write the results here as well");
+    shadows->add_option("--backend", shadowRun.backend, "auto, egl or osmesa");
+    shadows->add_option("--resolution", shadowRun.resolution, "W,H")->delimiter(',')->expected(2);
+    shadows->add_option("--rounds", shadowRun.rounds, "times that each is drawn")->check(CLI::Range(1, 1000));
+    ShadowRun areaRun;
+    CLI::App* area = app.add_subcommand("area", "a light with a body against a point light");
+    area->add_option("--json", areaRun.json, "write the results here as well");
+    area->add_option("--backend", areaRun.backend, "auto, egl or osmesa");
+    area->add_option("--resolution", areaRun.resolution, "W,H")->delimiter(',')->expected(2);
+    area->add_option("--rounds", areaRun.rounds, "times that each is drawn")->check(CLI::Range(1, 1000));
     std::vector<int> resolution = {1280, 720};
     int frames = 9;
     app.add_option("--assets", assets, "folder with DamagedHelmet/ and FlightHelmet/ (glTF sample models)");
@@ -151,6 +236,14 @@ int run(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     if (models->parsed()) {
         runModels(backend, json, rounds);
+        return 0;
+    }
+    if (shadows->parsed()) {
+        runShadows(shadowRun);
+        return 0;
+    }
+    if (area->parsed()) {
+        runAreaLights(areaRun);
         return 0;
     }
 

@@ -34,6 +34,19 @@ Scene flat() {
     return scene;
 }
 
+Scene balls(int n) {
+    Scene scene;
+    const int ball = addSphere(scene, addMaterial(scene, "metallic_roughness"), n);
+    addInstance(scene, addQuad(scene, addMaterial(scene, "lambert"), 4.0f),
+                turned({0, 0, 0}, -90, {1, 0, 0}));
+    for (int i = 0; i < 9; ++i)
+        addInstance(scene, ball,
+                    at({1.6 * (i % 3) - 1.6, 0.6 + 0.2 * (i % 2), 1.6 * (i / 3) - 1.6}, glm::dvec3(0.6)));
+    scene.name = "9 balls, " + std::to_string(scene.triangleCount()) + " triangles";
+    scene.cameras.push_back(view({0, 3.2, 7}, {0, 0.4, 0}, 0.75));
+    return scene;
+}
+
 Scene hall() {
     Scene scene;
     scene.name = "hall";

@@ -603,6 +603,115 @@ def interior():
     return g
 
 
+def balls_of_models():
+    """A ball for every model on the ground, five a row in the order of their names, the first row at the back."""
+    g = Gltf()
+    positions, normals, uvs, indices = sphere(28)
+    shape = g.geometry(positions, normals, indices, [uvs])
+    for i, name in enumerate(sorted(path.stem for path in (HERE / "../shaders/glsl/brdf").glob("*.glsl"))):
+        parameters = dict(MODELS.get(name, {}))
+        if "file" in parameters:
+            parameters["file"] = pathlib.Path(parameters["file"]).name  # beside the scene: paths may not leave its folder
+        material = g.material(name, brdf={"model": name, **parameters})
+        g.node(name=name, mesh=g.mesh({**shape, "material": material}), scale=[0.42] * 3,
+               translation=[1.1 * (i % 5 - 2), 0.42, 1.2 * (i // 5 - 1)])
+    place(g, ground(5), g.material("ground", brdf={"model": "lambert", "diffuse": [0.3, 0.31, 0.33]}), uvs=False)
+    g.camera((0, 3.0, 5.6), (0, 0.25, -0.1), 40)
+    return g
+
+
+def rect_light():
+    g = balls_of_models()
+    g.area_light("rect", 9.0, 0.8, (-1.3, 2.4, 1.6), (0.45, -1, -0.6), aspect=2)
+    return g
+
+
+def disk_light():
+    g = balls_of_models()
+    g.area_light("disk", 14.0, 1.1, (1.6, 2.4, 1.4), (-0.5, -1, -0.55))
+    return g
+
+
+def sphere_light():
+    g = balls_of_models()
+    g.light("point", 9.0, position=(-0.9, 2.2, 1.9), shape={"shape": "sphere", "radius": 0.35})
+    return g
+
+
+def tube_light():
+    g = balls_of_models()
+    g.light("point", 8.0, position=(0, 1.9, 1.9), shape={"shape": "tube", "radius": 0.05, "length": 3.0})
+    return g
+
+
+def shadow_stage(g):
+    """Casters of every kind on a floor: thin, round, pierced, one that touches the floor and one that floats."""
+    place(g, ground(6), g.material("floor", (0.66, 0.65, 0.62), 0.0, 0.9), uvs=False)
+    place(g, box(0.8, 1.6, 0.8), g.material("block", (0.55, 0.32, 0.2), 0.0, 0.7), translation=(-1.7, 0.8, -0.9), rotation=axis_rotation((0, 1, 0), 30),
+          uvs=False)
+    place(g, sphere(40, 0.6), g.material("ball", (0.2, 0.4, 0.6), 0.0, 0.35), translation=(0.1, 0.6, 0.2), uvs=False)
+    place(g, sphere(24, 0.25), g.material("small ball", brdf={"model": "ward", "diffuse": [0.4, 0.1, 0.1], "specular": [0.15] * 3, "alpha": 0.2}),
+          translation=(1.2, 1.3, 0.1), uvs=False)
+    post = g.material("post", (0.5, 0.5, 0.5), 0.0, 0.5)
+    for i in range(4):
+        place(g, box(0.05, 1.5, 0.05), post, translation=(1.0 + 0.35 * i, 0.75, -1.2), uvs=False)
+    place(g, box(1.2, 0.05, 0.05), post, translation=(1.52, 1.52, -1.2), uvs=False)
+    g.camera((0.4, 2.6, 5.4), (0.1, 0.5, -0.2), 38)
+
+
+def shadow_directional():
+    """Two suns, one of them low."""
+    g = Gltf()
+    shadow_stage(g)
+    g.light("directional", 2.2, (1.0, 0.95, 0.85), toward=(0.6, -0.8, -0.35))
+    g.light("directional", 0.8, (0.6, 0.75, 1.0), toward=(-1.0, -0.28, 0.12))
+    return g
+
+
+def shadow_point():
+    """A point light among the things, one with a range, and one that casts no shadows."""
+    g = Gltf()
+    shadow_stage(g)
+    g.light("point", 7.0, (1.0, 0.85, 0.6), (-0.6, 1.5, 1.3))
+    g.light("point", 6.0, (0.5, 0.7, 1.0), (2.6, 2.2, 0.4), range=5.0)
+    g.light("point", 1.2, (1.0, 1.0, 1.0), (0.0, 4.0, 3.0))
+    g.extension("LOBE_shadow")
+    g.json["nodes"][-1]["extensions"]["LOBE_shadow"] = {"cast": False}
+    return g
+
+
+def shadow_spot():
+    """Three spots whose cones cross."""
+    g = Gltf()
+    shadow_stage(g)
+    g.light("spot", 70.0, (1.0, 0.4, 0.3), (-3.5, 3.4, 2.2), (0.75, -0.75, -0.5), cone=(12, 20))
+    g.light("spot", 70.0, (0.35, 1.0, 0.45), (3.4, 3.4, 2.2), (-0.7, -0.75, -0.55), cone=(19, 20))
+    g.light("spot", 60.0, (0.4, 0.55, 1.0), (0.4, 4.5, -2.6), (0, -1, 0.55), cone=(2, 24))
+    return g
+
+
+def shadow_fence():
+    """Alpha-masked wire and a leaf, and blended panes, before a light of each type."""
+    g = Gltf()
+    shadow_stage(g)
+    wire = g.texture(png(64, 64, lambda x, y: (120, 125, 120, 255 if min((x + y) % 32, (x - y) % 32) < 5 else 0), True))
+    mesh = g.material("wire", roughness=0.5, alphaMode="MASK", alphaCutoff=0.5, doubleSided=True)
+    g.json["materials"][mesh]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": wire}
+    positions, normals, uvs, indices = upright(1.6, 0.7)
+    place(g, (positions, normals, [(u * 6.4, v * 2.8) for u, v in uvs], indices), mesh, translation=(-0.4, 0.7, 1.5), rotation=axis_rotation((0, 1, 0), -14))
+    leaf = g.texture(png(32, 32, lambda x, y: (60, 150, 50, 255 * max(0, 1 - math.hypot(x - 15.5, y - 15.5) / 15)), True), wrapS=33071, wrapT=33071)
+    cut = g.material("leaf", roughness=0.6, alphaMode="MASK", alphaCutoff=0.4, doubleSided=True)
+    g.json["materials"][cut]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": leaf}
+    place(g, upright(0.5, 0.5), cut, translation=(2.1, 1.6, 0.9), rotation=axis_rotation((1, 0.2, 0), -60))
+    for i, (x, color, alpha) in enumerate(((-2.6, (0.9, 0.5, 0.1), 0.6), (-2.1, (0.1, 0.4, 0.9), 0.3))):
+        pane = g.material(f"pane {i}", color, 0.0, 0.3, alpha, alphaMode="BLEND", doubleSided=True)
+        place(g, upright(0.5, 0.6), pane, uvs=False, translation=(x, 0.65, 0.6 - 0.5 * i), rotation=axis_rotation((0, 1, 0), 40))
+    g.light("directional", 1.4, (1.0, 0.95, 0.85), toward=(0.35, -0.8, -0.75))
+    g.light("point", 4.0, (1.0, 0.7, 0.45), (-1.4, 1.6, 2.9))
+    g.light("spot", 50.0, (0.5, 0.7, 1.0), (3.6, 3.2, 2.6), (-0.7, -0.65, -0.6), cone=(14, 24))
+    return g
+
+
 def extreme():
     shiny = {"model": "blinn_phong", "diffuse": [0.2] * 3, "specular": [0.8] * 3, "shininess": 1e6, "normalization": "energy"}
     yield "roughness_0", ball_scene(lambda g: g.material("mirror-like", (0.9, 0.9, 0.9), 1.0, 0.0))
@@ -651,11 +760,15 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     for part in ("extreme", "data", "lights"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    merl_table(folder / "data/metallic_paint.binary", (32, 24), metallic_paint)
+    for part in ("data", "lights"):
+        merl_table(folder / part / "metallic_paint.binary", (32, 24), metallic_paint)
     for name, make in (("white_plane", white_plane), ("spheres", spheres), ("lights", lights), ("teapot", teapots), ("textured", textured),
                        ("blend", blend), ("many_lights", many_lights), ("animated", animated), ("vases", vases),
                        ("teapot_normals", teapot_normals), ("models", models), ("lights/soft_light", soft_light),
-                       ("lights/interior", interior)):
+                       ("lights/interior", interior), ("lights/rect", rect_light), ("lights/disk", disk_light),
+                       ("lights/sphere", sphere_light), ("lights/tube", tube_light),
+                       ("lights/shadow_directional", shadow_directional), ("lights/shadow_point", shadow_point),
+                       ("lights/shadow_spot", shadow_spot), ("lights/shadow_fence", shadow_fence)):
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme():
         scene.write(folder / "extreme" / f"{name}.gltf")

@@ -159,7 +159,8 @@ const std::vector<std::string>& supportedExtensions() {
                                                  "LOBE_environment",
                                                  "LOBE_fog",
                                                  "LOBE_light_shape",
-                                                 "LOBE_materials_brdf"};
+                                                 "LOBE_materials_brdf",
+                                                 "LOBE_shadow"};
     return kNames;
 }
 

@@ -117,9 +117,9 @@ private:
                        "more than " + std::to_string(kMostInstances) + " drawn primitives", "fewer");
             }
             // Skinned vertices are in world space already; glTF ignores the node's own transform.
-            result_.scene.instances.push_back({primitive,
-                                               joints.empty() ? world_.transforms[node] : glm::dmat4(1.0),
-                                               source.name.empty() ? at("nodes", node) : source.name});
+            result_.scene.instances.push_back(
+                {primitive, joints.empty() ? world_.transforms[node] : glm::dmat4(1.0),
+                 source.name.empty() ? at("nodes", node) : source.name, castsShadow(document_, node)});
         }
     }
 

@@ -131,6 +131,7 @@ std::vector<Light> readLights(const Document& document, const NodeTree& tree, co
             const glm::dquat& rotation = world.rotations[index];
             light.position = glm::dvec3(world.transforms[index][3]);
             light.direction = glm::normalize(rotation * glm::dvec3(0.0, 0.0, -1.0));
+            light.castsShadow = castsShadow(document, index);
             light.axis = glm::normalize(rotation * glm::dvec3(1.0, 0.0, 0.0));
             lights.push_back(std::move(light));
         };

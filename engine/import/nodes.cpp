@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "import/gltf_schema.hpp"
 #include "import/refuse.hpp"
 
 namespace lobe {
@@ -181,6 +182,11 @@ std::vector<NodePose> readRestPose(Document& document) {
         pose.push_back(readPose(document, i));
     }
     return pose;
+}
+
+bool castsShadow(const Document& document, size_t node) {
+    const nlohmann::json* shadow = document.extension("nodes", node, kShadowExtension);
+    return shadow == nullptr || shadow->value("cast", true);
 }
 
 WorldPose worldPose(const Document& document, const NodeTree& tree, const std::vector<NodePose>& pose) {

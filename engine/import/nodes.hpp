@@ -38,6 +38,9 @@ std::optional<size_t> shownScene(const Document& document);
 
 std::vector<NodePose> readRestPose(Document& document);
 
+/// Whether a node's light and mesh cast shadows (LOBE_shadow).
+bool castsShadow(const Document& document, size_t node);
+
 /// Throws InputError where transforms multiply up to infinity.
 WorldPose worldPose(const Document& document, const NodeTree& tree, const std::vector<NodePose>& pose);
 

@@ -38,7 +38,9 @@ void ForwardPass::draw(const View& view, bool blended) {
             program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
             const auto ambient = resources().scene.ambientRadiance.value_or(glm::dvec3(0.0));
             program.set("uAmbientRadiance", glm::vec3(ambient));
-            resources().lights.bind(program, kFirstLightUnit);
+            int unit = resources().rays.bind(program, kFirstLightUnit, view);
+            unit = resources().lights.bind(program, unit);
+            resources().bodies.bind(program, unit, plan().areaPointsForward);
         });
 }
 

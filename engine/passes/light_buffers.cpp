@@ -15,22 +15,25 @@ void push(std::vector<float>& data, const glm::dvec3& xyz, double w) {
     data.push_back(static_cast<float>(w));
 }
 
-void pushLight(std::vector<float>& data, const Light& light, const glm::dvec3& eye) {
+/// `slot`: of the light's shadow; below 0: it casts none.
+void pushLight(std::vector<float>& data, const Light& light, const glm::dvec3& eye, double slot,
+               bool shadows) {
     const double invRange2 = inverseRange2(light.range);
     switch (light.type) {
         case LightType::directional:
-            push(data, -light.direction, 0.0);
+            push(data, -light.direction, slot);
             push(data, light.intensity, 0.0);
             break;
         case LightType::point:
             push(data, light.position - eye, invRange2);
-            push(data, light.intensity, 0.0);
+            push(data, light.intensity, slot);
             break;
         case LightType::spot: {
             const SpotScaleOffset cone = spotScaleOffset(light.innerConeAngle, light.outerConeAngle);
             push(data, light.position - eye, invRange2);
             push(data, light.intensity, cone.scale);
             push(data, light.direction, cone.offset);
+            if (shadows) push(data, glm::dvec3(0.0), slot);
             break;
         }
         default:
@@ -49,6 +52,7 @@ LightBuffers::LightBuffers(const Scene& scene, const FramePlan& plan) {
     for (const Light& light : scene.lights)
         if (isPunctual(light.type)) lights_[static_cast<size_t>(light.type)].push_back(&light);
     for (size_t type = 0; type < 3; ++type) {
+        shadows_[type] = plan.shadowOf(static_cast<LightType>(type)) != PlannedShadow::none;
         auto& list = lights_[type];
         const auto split = clustered_[type] ? std::stable_partition(list.begin(), list.end(),
                                                                     [](const Light* l) { return !l->range; })
@@ -61,8 +65,10 @@ void LightBuffers::update(const View& view) {
     for (size_t type = 0; type < 3; ++type) {
         if (lights_[type].empty()) continue;
         std::vector<float> data;
+        int casting = 0;
         for (const Light* light : lights_[type])
-            pushLight(data, *light, view.eye);
+            pushLight(data, *light, view.eye, shadows_[type] && light->castsShadow ? casting++ : -1,
+                      shadows_[type]);
         buffers_[type] = gl::makeTextureBuffer(GL_RGBA32F, data.data(), data.size() * sizeof(float));
     }
     if (clustered_[1] || clustered_[2]) updateClusters(view);
@@ -110,7 +116,7 @@ void LightBuffers::updateClusters(const View& view) {
     indices_ = gl::makeTextureBuffer(GL_R32UI, indices.data(), indices.size() * sizeof(uint32_t));
 }
 
-void LightBuffers::bind(const gl::Program& program, int unit) const {
+int LightBuffers::bind(const gl::Program& program, int unit) const {
     const auto attach = [&](const std::string& uniform, const gl::TextureBuffer& buffer) {
         if (!buffer.texture || program.uniform(uniform) < 0) return;
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -127,6 +133,7 @@ void LightBuffers::bind(const gl::Program& program, int unit) const {
     attach("uClusterIndices", indices_);
     program.set("uClusterZ", sliceFactors_);
     program.set("uClusterTiles", clusterTiles_);
+    return unit;
 }
 
 }  // namespace lobe

@@ -14,6 +14,8 @@ namespace lobe {
 
 /// Most lights that one loop of a shader runs over: llvmpipe ends loops at 65535 iterations without a word.
 inline constexpr int kLightsPerDraw = 32768;
+/// The same where each casts rays: 8,000 iterations a ray, of which few need more than 500.
+inline constexpr int kLightsPerDrawOfRays = 8;
 
 class LightBuffers {
 public:
@@ -23,8 +25,8 @@ public:
     void update(const View& view);
 
     /// Texture units from `firstUnit` on, and every light uniform that the program uses, for all lights of
-    /// its types.
-    void bind(const gl::Program& program, int firstUnit) const;
+    /// its types. Returns the first free unit.
+    int bind(const gl::Program& program, int firstUnit) const;
 
     int count(LightType type) const { return static_cast<int>(lights_[static_cast<size_t>(type)].size()); }
     /// Lights of the type that are outside the clusters: the first ones of its buffer.
@@ -39,6 +41,7 @@ private:
     std::vector<const Light*> lights_[3];  ///< by type, those outside the clusters first
     int global_[3] = {0, 0, 0};
     bool clustered_[3] = {false, false, false};
+    bool shadows_[3] = {false, false, false};  ///< whether slots of shadows go with the lights
     double sceneRadius_;
     glm::dvec3 sceneCenter_;
     gl::TextureBuffer buffers_[3];

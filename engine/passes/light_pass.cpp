@@ -27,7 +27,8 @@ void LightPass::run(const View& view) {
         const PlannedBrdf& brdf = *plan().brdf(variant.brdf);
         const gl::Program& shader = program(variant);
         shader.use();
-        const int unit = resources().inputs.bind(shader, targets(), view, brdf);
+        int unit = resources().inputs.bind(shader, targets(), view, brdf);
+        unit = resources().rays.bind(shader, unit, view);
         resources().lights.bind(shader, unit);
         resources().inputs.setMask(&brdf);
         if (variant.defines.contains("TILES")) {
@@ -38,9 +39,11 @@ void LightPass::run(const View& view) {
             continue;
         }
         const int count = resources().lights.globalCount(type_);
-        for (int first = 0; first < count; first += kLightsPerDraw) {
+        const int each =
+            plan().shadowOf(type_) == PlannedShadow::rays ? kLightsPerDrawOfRays : kLightsPerDraw;
+        for (int first = 0; first < count; first += each) {
             shader.set("u" + name + "First", first);
-            shader.set("u" + name + "End", std::min(count, first + kLightsPerDraw));
+            shader.set("u" + name + "End", std::min(count, first + each));
             resources().inputs.drawScreen(shader);
         }
     }

@@ -18,6 +18,7 @@ std::string modelAliases(const Brdf& brdf) {
     text += "#define MODEL_PARAMS " + glslParameterType(brdf) + "\n";
     for (const char* function : {"f_cos", "ambient", "roughness"})
         text += std::string("#define model_") + function + " " + brdf.name + "_" + function + "\n";
+    if (brdf.mirror) text += "#define model_mirror " + brdf.name + "_mirror\n";
     return text;
 }
 

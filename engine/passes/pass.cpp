@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "passes/body_light_pass.hpp"
 #include "passes/forward_pass.hpp"
 #include "passes/gbuffer_pass.hpp"
 #include "passes/light_pass.hpp"
@@ -17,6 +18,9 @@ std::unique_ptr<Pass> makePass(const PlannedPass& planned, FrameResources& resou
     if (planned.name == "light.point")
         return std::make_unique<LightPass>(planned, resources, LightType::point);
     if (planned.name == "light.spot") return std::make_unique<LightPass>(planned, resources, LightType::spot);
+    for (LightType body : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
+        if (planned.name == std::string("light.") + nameOf(body))
+            return std::make_unique<BodyLightPass>(planned, resources, body);
     if (planned.name == "forward") return std::make_unique<ForwardPass>(planned, resources);
     if (planned.name == "accumulate") return std::make_unique<AccumulatePass>(planned, resources);
     if (planned.name == "aov") return std::make_unique<AovPass>(planned, resources);

@@ -3,8 +3,10 @@
 
 #include <memory>
 
+#include "passes/body_lights.hpp"
 #include "passes/light_buffers.hpp"
 #include "passes/program_cache.hpp"
+#include "passes/ray_scene.hpp"
 #include "passes/screen_state.hpp"
 #include "passes/surface_draws.hpp"
 #include "passes/targets.hpp"
@@ -19,7 +21,9 @@ struct FrameResources {
     Targets& targets;
     SurfaceDraws& surfaces;
     LightBuffers& lights;
+    BodyLights& bodies;
     ScreenInputs& inputs;
+    RayScene& rays;  ///< empty where the plan has none
 };
 
 class Pass {

@@ -1,7 +1,10 @@
 #include "passes/readback.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "base/error.hpp"
 
 namespace lobe {
 namespace {
@@ -32,9 +35,22 @@ void markOverflow(const FramePlan& plan, float* values, size_t count) {
             std::numeric_limits<float>::infinity());
 }
 
+/// Shaders mark pixels whose rays a driver did not let finish by an alpha of infinity (pass/lights.glsl).
+void requireFinishedRays(const FramePlan& plan, const float* values, size_t count) {
+    if (!plan.rays) return;
+    size_t unfinished = 0;
+    for (size_t i = 3; i < count; i += 4)
+        if (!std::isfinite(values[i])) ++unfinished;
+    if (unfinished > 0)
+        throw ContextError("rays for shadows: " + std::to_string(unfinished) +
+                           " pixels need more steps through the scene than the driver lets a shader make; "
+                           "expected fewer lights or triangles on the way, or shadow maps");
+}
+
 /// Rows of a target of radiance.
 std::vector<float> readRadiance(const FramePlan& plan, const Targets& targets, const std::string& channel) {
     std::vector<float> values = readTarget(targets, channel, 4);
+    requireFinishedRays(plan, values.data(), values.size());
     markOverflow(plan, values.data(), values.size());
     return values;
 }
@@ -107,7 +123,10 @@ Image readPicture(const FramePlan& plan, const Targets& targets, const View& vie
         targets.has(layers[0].target)) {
         // Radiance alone, as most pictures are: no copy on the way.
         readTarget(targets, layers[0].target, layers[0].components, image.values.data());
-        if (layers[0].channels[0] == "R") markOverflow(plan, image.values.data(), image.values.size());
+        if (layers[0].channels[0] == "R") {
+            requireFinishedRays(plan, image.values.data(), image.values.size());
+            markOverflow(plan, image.values.data(), image.values.size());
+        }
         turnOver(image);
         return image;
     }

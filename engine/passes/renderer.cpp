@@ -58,8 +58,10 @@ struct Renderer::State {
               tables(*scene),
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
+              bodies(*scene, plan),
               inputs(*scene, plan, tables),
-              resources{*scene, plan, programs, targets, surfaces, lights, inputs} {
+              rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
+              resources{*scene, plan, programs, targets, surfaces, lights, bodies, inputs, rays} {
             for (const PlannedPass& planned : plan.passes) {
                 const gl::DebugScope scope("preparing " + planned.name);
                 auto pass = makePass(planned, resources);
@@ -79,7 +81,9 @@ struct Renderer::State {
         BrdfTableBuffer tables;
         SurfaceDraws surfaces;
         LightBuffers lights;
+        BodyLights bodies;
         ScreenInputs inputs;
+        RayScene rays;
         FrameResources resources;
         std::vector<std::unique_ptr<Pass>> frame;
         std::unique_ptr<Pass> accumulate, data;
@@ -184,6 +188,7 @@ Picture Renderer::render(const Camera& camera) {
         const View view = state_->adapted(
             makeView(camera, options.width, options.height, jitter(sample, current.plan.samples)));
         current.lights.update(view);
+        current.bodies.update(view, sample);
         mark("lights");
         state_->clearPictures();
         for (const auto& pass : current.frame) {

@@ -29,6 +29,8 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
     attach("uDepth", GL_TEXTURE_2D,
            targets.texture(plan_.reversedDepth || !targets.has("linear_z") ? "depth" : "linear_z"));
     if (targets.has("normal")) attach("uNormal", GL_TEXTURE_2D, targets.texture("normal"));
+    if (targets.has("geometric_normal"))
+        attach("uGeometricNormal", GL_TEXTURE_2D, targets.texture("geometric_normal"));
     if (targets.has("tangent")) attach("uTangent", GL_TEXTURE_2D, targets.texture("tangent"));
     if (targets.has("material")) attach("uMaterialId", GL_TEXTURE_2D, targets.texture("material"));
     for (int i = 0; targets.has("parameters" + std::to_string(i)); ++i)

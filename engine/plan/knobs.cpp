@@ -1,6 +1,7 @@
 #include "plan/knobs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "base/closest_name.hpp"
@@ -11,6 +12,17 @@ namespace lobe {
 namespace {
 
 constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {"ssaa16", 16}};
+
+constexpr std::array kShadows{"none", "hard", "soft"};
+constexpr std::array kShadowMethods{"auto", "maps", "rays"};
+constexpr std::array kAreaLights{"analytic", "sampled"};
+constexpr std::array kTransparencies{"sorted", "peeled"};
+
+/// The enumerator of an allowed value, named in their order.
+template<typename Enum, size_t N>
+Enum chosen(const std::array<const char*, N>& names, const std::string& value) {
+    return static_cast<Enum>(std::find(names.begin(), names.end(), value) - names.begin());
+}
 
 std::string samplesName(const Quality& quality) {
     for (const auto& [name, samples] : kSamples)
@@ -37,10 +49,11 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
 /// Why no stored normal is read: those of punctual lights are the only ones that show.
 std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
     if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
-    if (scene.directionalLights + scene.pointLights + scene.spotLights == 0)
-        return "no light reads the normal";
-    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(),
-                                   [](const BrdfFacts& facts) { return scattersLight(facts.name); });
+    const bool punctual = scene.directionalLights + scene.pointLights + scene.spotLights > 0;
+    if (!punctual && scene.bodyLights.empty()) return "no light reads the normal";
+    const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(), [&](const BrdfFacts& facts) {
+        return scattersLight(facts.name) || (!scene.bodyLights.empty() && facts.name != kUnlit);
+    });
     return shows ? "" : "no opaque surface shows punctual light";
 }
 
@@ -61,6 +74,54 @@ std::string withoutExactFresnel(const SceneSummary& scene, const Quality&) {
     return scene.keptFresnel.empty()
                ? "no material in use has exact Fresnel equations"
                : "no exact Fresnel equations can be replaced: " + scene.keptFresnel.begin()->first;
+}
+
+int lightsOf(const SceneSummary& scene) {
+    int count = scene.directionalLights + scene.pointLights + scene.spotLights;
+    for (const auto& [type, lights] : scene.bodyLights)
+        count += lights;
+    return count;
+}
+
+std::string withoutLights(const SceneSummary& scene, const Quality&) {
+    return lightsOf(scene) > 0 ? "" : "no light in the scene";
+}
+
+/// Why no light casts a shadow.
+std::string withoutShadows(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutLights(scene, quality); !reason.empty()) return reason;
+    return quality.shadows == Shadows::none ? "shadows are off" : "";
+}
+
+std::string withoutShadowMaps(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutShadows(scene, quality); !reason.empty()) return reason;
+    return quality.shadowMethod == ShadowMethod::rays ? "shadows are found by rays" : "";
+}
+
+std::string withoutBodies(const SceneSummary& scene, const Quality&) {
+    return scene.bodyLights.empty() ? "no light with a body in the scene" : "";
+}
+
+/// Why no point on a light is ever drawn.
+std::string withoutLightSamples(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutBodies(scene, quality); !reason.empty()) return reason;
+    const auto scatters = [](const SurfaceFeatures& surface) { return scattersLight(surface.brdf); };
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), scatters))
+        return "no surface scatters light of a body";
+    const bool closed = std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [](const auto& surface) {
+        return !scattersLight(surface.brdf) || hasClosedForm(surface.brdf);
+    });
+    return closed && quality.areaLights == AreaLights::analytic && quality.shadows != Shadows::soft
+               ? "lights are in closed form and no shadow is soft"
+               : "";
+}
+
+std::string withoutAirlight(const SceneSummary& scene, const Quality&) {
+    return scene.fog && scene.pointLights + scene.spotLights > 0 ? "" : "no fog with a light in it";
+}
+
+std::string withoutBlended(const SceneSummary& scene, const Quality&) {
+    return scene.blended ? "" : "no blended surface in the scene";
 }
 
 bool isAllowed(const Knob& knob, const std::string& value) {
@@ -154,6 +215,93 @@ const std::vector<Knob>& knobTable() {
                  q.fresnel = value == "schlick" ? FresnelEquations::schlick : FresnelEquations::exact;
              },
          .withoutEffect = withoutExactFresnel},
+        {.name = "shadows",
+         .title = "Shadows",
+         .help = "none, hard as of points, or soft as each light's body casts them",
+         .values = {"none", "hard", "soft"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string { return kShadows[static_cast<size_t>(q.shadows)]; },
+         .set = [](Quality& q, const std::string& value) { q.shadows = chosen<Shadows>(kShadows, value); },
+         .withoutEffect = withoutLights},
+        {.name = "shadow_method",
+         .title = "Shadow method",
+         .help = "shadow maps, exact rays, or for each type of light what suits the scene",
+         .values = {"auto", "maps", "rays"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return kShadowMethods[static_cast<size_t>(q.shadowMethod)];
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.shadowMethod = chosen<ShadowMethod>(kShadowMethods, value);
+             },
+         .withoutEffect = withoutShadows},
+        {.name = "shadow_size",
+         .title = "Shadow map size",
+         .help = "texels along each side of a shadow map",
+         .values = {"512", "1024", "2048", "4096"},
+         .range = {{64, 16384}},
+         .get = [](const Quality& q) { return std::to_string(q.shadowSize); },
+         .set = [](Quality& q, const std::string& value) { q.shadowSize = std::stoi(value); },
+         .withoutEffect = withoutShadowMaps},
+        {.name = "shadow_taps",
+         .title = "Shadow map taps",
+         .help = "comparisons for each look into a shadow map",
+         .values = {"1", "4", "16", "64"},
+         .range = {{1, 64}},
+         .get = [](const Quality& q) { return std::to_string(q.shadowTaps); },
+         .set = [](Quality& q, const std::string& value) { q.shadowTaps = std::stoi(value); },
+         .withoutEffect = withoutShadowMaps},
+        {.name = "area_lights",
+         .title = "Area lights",
+         .help = "in closed form or by fits where a model has them, or by points on each light",
+         .values = {"analytic", "sampled"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return kAreaLights[static_cast<size_t>(q.areaLights)];
+         },
+         .set = [](Quality& q,
+                   const std::string& value) { q.areaLights = chosen<AreaLights>(kAreaLights, value); },
+         .withoutEffect = withoutBodies},
+        {.name = "light_samples",
+         .title = "Light samples",
+         .help = "points on each light with a body, for its shadow and where it is sampled",
+         .values = {"1", "4", "16", "64"},
+         .range = {{1, 1024}},
+         .get = [](const Quality& q) { return std::to_string(q.lightSamples); },
+         .set = [](Quality& q, const std::string& value) { q.lightSamples = std::stoi(value); },
+         .withoutEffect = withoutLightSamples},
+        {.name = "light_threshold",
+         .title = "Light threshold",
+         .help =
+             "most that lights which are left out may take from a pixel, in thousandths of white; 0 leaves "
+             "none out",
+         .values = {"10", "2", "0"},
+         .range = {{0, 1000}},
+         .get = [](const Quality& q) { return std::to_string(q.lightThreshold); },
+         .set = [](Quality& q, const std::string& value) { q.lightThreshold = std::stoi(value); },
+         .withoutEffect = withoutLights},
+        {.name = "airlight_nodes",
+         .title = "Airlight nodes",
+         .help = "of the quadrature along the view ray, for each light that fog scatters; 0 for none",
+         .values = {"0", "4", "8", "16"},
+         .range = {{0, 64}},
+         .get = [](const Quality& q) { return std::to_string(q.airlightNodes); },
+         .set = [](Quality& q, const std::string& value) { q.airlightNodes = std::stoi(value); },
+         .withoutEffect = withoutAirlight},
+        {.name = "transparency",
+         .title = "Transparency",
+         .help = "whole objects from back to front, or peeled layer by layer",
+         .values = {"sorted", "peeled"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return kTransparencies[static_cast<size_t>(q.transparency)];
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.transparency = chosen<Transparency>(kTransparencies, value);
+             },
+         .withoutEffect = withoutBlended},
     };
     return table;
 }

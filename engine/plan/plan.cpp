@@ -42,7 +42,8 @@ FramePlan Planner::plan() {
     plan_.textures = scene_.textures;
     plan_.reversedDepth = capabilities_.clipControl;
     deferred_ = plan_.quality.shading == Shading::deferred;
-    anyLight_ = scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0;
+    anyLight_ =
+        scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0 || !scene_.bodyLights.empty();
     unlit_ = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(),
                          [](const BrdfFacts& f) { return f.name == kUnlit; });
     hasDeferredSurface_ = deferred_ && !scene_.brdfs.empty();
@@ -52,6 +53,7 @@ FramePlan Planner::plan() {
     contributions_ = aovs_.contains(Aov::contributions);
 
     planModels();
+    planShadows();
     planTable();
     planGeometryChannels();
     planRadiance();
@@ -61,6 +63,16 @@ FramePlan Planner::plan() {
     for (const std::string& texture : scene_.unusedTextures)
         leaveOut("texture", texture, "no material in use reads it");
     return std::move(plan_);
+}
+
+PlannedShadow FramePlan::shadowOf(LightType type) const {
+    const auto found = shadows.find(type);
+    return found == shadows.end() ? PlannedShadow::none : found->second;
+}
+
+bool FramePlan::anyShadow() const {
+    return std::any_of(shadows.begin(), shadows.end(),
+                       [](const auto& entry) { return entry.second != PlannedShadow::none; });
 }
 
 const PlannedPass* FramePlan::pass(std::string_view name) const {

@@ -59,6 +59,20 @@ struct LeftOut {
     std::string reason;
 };
 
+/// How the shadows of one type of light are found.
+enum class PlannedShadow : uint8_t { none, maps, rays };
+
+/// How what the surfaces of one model show of lights with a body is found.
+enum class AreaMethod : uint8_t {
+    analytic,  ///< the whole light in closed form; its shadow by points
+    sampled,   ///< by points on the light
+    mirrored   ///< where the mirrored ray meets it
+};
+struct PlannedArea {
+    AreaMethod method = AreaMethod::sampled;
+    std::string reason;
+};
+
 struct FramePlan {
     Quality quality;
     int samples = 1;
@@ -67,6 +81,11 @@ struct FramePlan {
     bool ambient = false;
     bool clusteredPoint = false, clusteredSpot = false;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
+    std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
+    std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
+    int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
+    int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
+    bool rays = false;          ///< the scene's hierarchy of boxes is made for the rays of some program
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
@@ -82,11 +101,23 @@ struct FramePlan {
     std::vector<std::string> textures;  ///< for people: one line a texture kept
     std::vector<std::string> notes;     ///< decisions about the whole frame
 
+    PlannedShadow shadowOf(LightType type) const;
+    bool anyShadow() const;
     const PlannedPass* pass(std::string_view name) const;
     const Channel* channel(std::string_view name) const;
     const PlannedBrdf* brdf(std::string_view name) const;
     int gbufferBytesPerPixel() const;
 };
+
+/// Most rays, and most points without rays, that a fragment of one draw follows to lights with a body:
+/// llvmpipe ends loops at 65535 rounds in all, and few rays take more than 500.
+inline constexpr int kRaysPerDraw = 16;
+/// Of draws that cannot be split.
+inline constexpr int kRaysPerForwardDraw = 64;
+inline constexpr int kPointsPerDraw = 32768;
+
+/// "directional", "rect", ...
+const char* nameOf(LightType type);
 
 FramePlan planFrame(const SceneSummary& summary, const Quality& quality, const Capabilities& capabilities,
                     const AovSet& aovs = {Aov::radiance});

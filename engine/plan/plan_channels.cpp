@@ -63,21 +63,26 @@ void Planner::planGeometryChannels() {
     if (!plan_.reversedDepth && needsPosition)
         addTarget("linear_z", "R32F", "distance along the view axis, m", "position, without clip control");
     planNormal();
+    planGeometricNormal();
     planTangent();
     planMaterialId();
     planParameters();
 }
 
 void Planner::planNormal() {
+    const bool punctual = scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0;
     double sharpness = 0.0;
-    bool lit = false;
+    bool read = false;
     for (const BrdfFacts& facts : scene_.brdfs) {
         sharpness = std::max(sharpness, facts.sharpness);
-        lit |= scattersLight(facts.name);
+        read |= (punctual && scattersLight(facts.name)) ||
+                (!scene_.bodyLights.empty() && showsBodies(facts.name));
     }
-    if (!(lit && anyLight_) && !wants(Aov::normal)) {
+    if (!read && !wants(Aov::normal)) {
         leaveOut("channel", "normal",
-                 !anyLight_ ? "no light reads it" : "no opaque surface shows punctual light");
+                 !anyLight_                  ? "no light reads it"
+                 : scene_.bodyLights.empty() ? "no opaque surface shows punctual light"
+                                             : "no opaque surface shows these lights");
         return;
     }
     const int asked = plan_.quality.normalBits;
@@ -93,6 +98,13 @@ void Planner::planNormal() {
               : full  ? "quality asks for full precision"
               : sharp ? "the sharpest lobe needs a normal better than 6.4e-5 rad"
                       : "16 bits change no lobe here by more than 1 %");
+}
+
+void Planner::planGeometricNormal() {
+    if (!plan_.anyShadow())
+        return leaveOut("channel", "geometric_normal", "no shadow is sought from the surface");
+    addTarget("geometric_normal", "RG16", "octahedral normal of the triangle, towards the eye",
+              "the way to a light starts beside the surface, not at its shading normal");
 }
 
 void Planner::planTangent() {
@@ -214,6 +226,27 @@ void Planner::planParameters() {
     }
 }
 
+/// The forward pass writes to all contributions, and coverage, at once. Where they are too many for the
+/// driver, those of kinds of light that the scene lacks go.
+void Planner::requireContributionTargets() {
+    if (deferred_ && !scene_.blended) return;
+    const auto most = static_cast<size_t>(capabilities_.maxColorAttachments) - 1;
+    auto& targets = plan_.contributionTargets;
+    const std::pair<const char*, int> lacking[] = {{"directional", scene_.directionalLights},
+                                                   {"point", scene_.pointLights},
+                                                   {"spot", scene_.spotLights}};
+    for (const auto& [name, count] : lacking) {
+        if (targets.size() <= most || count > 0) continue;
+        targets.erase(std::find(targets.begin(), targets.end(), name));
+        leaveOut("channel", std::string("contribution.") + name,
+                 "the scene has none, and the driver has too few colour attachments for all");
+    }
+    if (targets.size() > most)
+        throw ContextError("contributions: " + std::to_string(targets.size()) +
+                           " kinds of light over blended or forward surfaces; expected at most " +
+                           std::to_string(most) + ", what the driver can draw to at once");
+}
+
 void Planner::planRadiance() {
     const bool half = plan_.quality.radianceBits == 16;
     const std::string format = half ? "RGBA16F" : "RGBA32F";
@@ -230,7 +263,11 @@ void Planner::planRadiance() {
         leaveOut("texture", "occlusion",
                  scene_.ambient ? "no material has one" : "there is no ambient light for it to act on");
     if (contributions_) {
-        plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot", "transparent"};
+        plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot"};
+        for (const auto& [type, count] : scene_.bodyLights)
+            plan_.contributionTargets.emplace_back(nameOf(type));
+        plan_.contributionTargets.emplace_back("transparent");
+        requireContributionTargets();
         for (const std::string& name : plan_.contributionTargets)
             addChannel("contribution." + name, format, "radiance from " + name, "asked for as AOV");
         if (gbufferRadiance_) {

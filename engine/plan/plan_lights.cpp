@@ -19,12 +19,6 @@ void Planner::requireForwardLoop(const char* type, int global) const {
 }
 
 void Planner::planUndrawn() {
-    static const std::map<LightType, const char*> kNames{{LightType::rect, "rect"},
-                                                         {LightType::disk, "disk"},
-                                                         {LightType::sphere, "sphere"},
-                                                         {LightType::tube, "tube"}};
-    for (const auto& [type, count] : scene_.bodyLights)
-        leaveOut("light", kNames.at(type), plural(count, "light") + "; not drawn yet");
     if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
     if (scene_.fog) leaveOut("pass", "fog", "not drawn yet");
 }
@@ -56,10 +50,11 @@ void Planner::planLights() {
         clustered("spot", scene_.spotLights, scene_.rangedSpotLights, plan_.globalSpotLights);
     requireFit("directional", scene_.directionalLights, 2);
     requireFit("point", scene_.pointLights, 2);
-    requireFit("spot", scene_.spotLights, 3);
+    requireFit("spot", scene_.spotLights, plan_.shadowOf(LightType::spot) == PlannedShadow::none ? 3 : 4);
     requireForwardLoop("directional", scene_.directionalLights);
     requireForwardLoop("point", plan_.globalPointLights);
     requireForwardLoop("spot", plan_.globalSpotLights);
+    planBodyLights();
     if (!plan_.clusteredPoint && !plan_.clusteredSpot)
         leaveOut("buffer", "light clusters", "no light type has enough ranged lights for lists to pay");
 }

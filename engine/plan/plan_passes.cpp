@@ -48,6 +48,17 @@ void Planner::lightDefines(Defines& defines, LightType type) const {
     }
 }
 
+void Planner::shadowDefines(Defines& defines, LightType type) const {
+    static const std::map<LightType, std::string> kNames{
+        {LightType::directional, "DIRECTIONAL"}, {LightType::point, "POINT"}, {LightType::spot, "SPOT"}};
+    const PlannedShadow method = plan_.shadowOf(type);
+    if (method == PlannedShadow::none) return;
+    defines["SHADOWS"] = "1";
+    defines[kNames.at(type) + "_SHADOWS"] = "1";
+    defines[kNames.at(type) + (method == PlannedShadow::rays ? "_SHADOW_RAYS" : "_SHADOW_MAPS")] = "1";
+    if (method == PlannedShadow::rays) rayDefines(defines);
+}
+
 Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const {
     Defines defines;
     const auto flag = [&](const char* key, bool on) {
@@ -73,9 +84,10 @@ Planner::Defines Planner::surfaceDefines(const SurfaceFeatures& features) const 
 void Planner::planPasses() {
     planGbufferPass();
     planCoverage();
-    planLightPass("light.directional", "pass/light.frag", LightType::directional, scene_.directionalLights);
-    planLightPass("light.point", "pass/light.frag", LightType::point, scene_.pointLights);
-    planLightPass("light.spot", "pass/light.frag", LightType::spot, scene_.spotLights);
+    planLightPass(LightType::directional, scene_.directionalLights);
+    planLightPass(LightType::point, scene_.pointLights);
+    planLightPass(LightType::spot, scene_.spotLights);
+    planBodyPasses();
     planForward();
     planAccumulation();
     planDataAovs();
@@ -121,21 +133,30 @@ void Planner::planCoverage() {
                             "lighting passes add radiance only; coverage is set once"});
 }
 
-void Planner::planLightPass(const std::string& name, const std::string& program, LightType type, int count) {
-    static const char* const kinds[] = {"directional", "point", "spot"};
-    const std::string kind = kinds[static_cast<size_t>(type)];
-    if (count == 0) return leaveOut("pass", name, "the scene has no " + kind + " light");
-    if (!deferred_) return leaveOut("pass", name, "forward shading");
-    PlannedPass pass{name,
-                     program,
-                     {},
-                     {"depth"},
-                     {contributions_ ? "contribution." + kind : "radiance"},
-                     plural(count, kind + " light")};
-    for (const char* channel : {"linear_z", "normal", "tangent", "material"})
+PlannedPass Planner::lightPass(const std::string& name, const std::string& kind,
+                               const std::string& reason) const {
+    PlannedPass pass{
+        name,  "pass/light.frag", {}, {"depth"}, {contributions_ ? "contribution." + kind : "radiance"},
+        reason};
+    for (const char* channel : {"linear_z", "normal", "geometric_normal", "tangent", "material"})
         if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
     for (int i = 0; plan_.channel("parameters" + std::to_string(i)) != nullptr; ++i)
         pass.reads.push_back("parameters" + std::to_string(i));
+    return pass;
+}
+
+Planner::Defines Planner::screenDefines(const std::string& model) const {
+    Defines defines = commonDefines();
+    if (requireBrdf(model).traits.usesTangent) defines["USES_TANGENT"] = "1";
+    if (scene_.bandedBrdfs.contains(model)) defines["FRESNEL_BANDS"] = "1";
+    return defines;
+}
+
+void Planner::planLightPass(LightType type, int count) {
+    const std::string kind = nameOf(type), name = "light." + kind;
+    if (count == 0) return leaveOut("pass", name, "the scene has no " + kind + " light");
+    if (!deferred_) return leaveOut("pass", name, "forward shading");
+    PlannedPass pass = lightPass(name, kind, plural(count, kind + " light"));
     for (const PlannedBrdf& brdf : plan_.brdfs) {
         if (!scattersLight(brdf.name)) continue;
         // Lists of clusters are drawn tile by tile, lights that reach everything over the whole picture:
@@ -143,10 +164,9 @@ void Planner::planLightPass(const std::string& name, const std::string& program,
         Defines lights;
         lightDefines(lights, type);
         for (const auto& [key, value] : lights) {
-            Defines defines = commonDefines();
+            Defines defines = screenDefines(brdf.name);
             defines[key] = value;
-            if (requireBrdf(brdf.name).traits.usesTangent) defines["USES_TANGENT"] = "1";
-            if (scene_.bandedBrdfs.contains(brdf.name)) defines["FRESNEL_BANDS"] = "1";
+            shadowDefines(defines, type);
             if (key.ends_with("_CLUSTERS")) defines["TILES"] = "1";
             pass.variants.push_back({brdf.name, -1, defines});
         }
@@ -169,11 +189,20 @@ void Planner::planForward() {
         if (deferred_ && features.alphaMode != AlphaMode::blend) continue;
         Defines defines = surfaceDefines(features);
         if (scattersLight(features.brdf)) {
-            if (scene_.directionalLights > 0) lightDefines(defines, LightType::directional);
-            if (scene_.pointLights > 0) lightDefines(defines, LightType::point);
-            if (scene_.spotLights > 0) lightDefines(defines, LightType::spot);
+            const std::pair<LightType, int> types[] = {{LightType::directional, scene_.directionalLights},
+                                                       {LightType::point, scene_.pointLights},
+                                                       {LightType::spot, scene_.spotLights}};
+            for (const auto& [type, lights] : types) {
+                if (lights == 0) continue;
+                lightDefines(defines, type);
+                shadowDefines(defines, type);
+            }
         }
-        if (contributions_) defines["CONTRIBUTIONS"] = "1";
+        defines.merge(forwardBodyDefines(features.brdf));
+        for (size_t target = 0; contributions_ && target < plan_.contributionTargets.size(); ++target)
+            defines["OUT_" + defineName("contribution." + plan_.contributionTargets[target])] =
+                std::to_string(target);
+        if (contributions_) defines["CONTRIBUTIONS"] = std::to_string(plan_.contributionTargets.size());
         pass.variants.push_back({features.brdf, static_cast<int>(i), defines});
     }
     pass.reason = deferred_ ? plural(static_cast<int>(scene_.blendedInstances), "blended instance") +

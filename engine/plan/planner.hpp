@@ -15,6 +15,9 @@ std::string plural(int count, const std::string& noun);
 /// Whether punctual lights show on surfaces of this model.
 bool scattersLight(const std::string& model);
 
+/// Whether light of bodies that surfaces of this model reflect is known without points on them.
+bool hasClosedForm(const std::string& model);
+
 /// Bytes a pixel of a format, by its OpenGL name.
 int bytesOfFormat(const std::string& format);
 
@@ -46,26 +49,54 @@ private:
     void planModels();
     void planGeometryChannels();
     void planNormal();
+    void planGeometricNormal();
     void planTangent();
     void planTable();
     void planMaterialId();
     void planParameters();
     void planRadiance();
+    void requireContributionTargets();
     void requireFit(const char* type, int count, int texelsEach) const;
     /// One loop of a fragment shader runs over all lights that reach everything; software drivers end loops
     /// at 65535.
     void requireForwardLoop(const char* type, int global) const;
+    void planShadows();
+    void planBodyShadows();
+    /// Why no light of a type casts shadows here; empty if some do.
+    std::string whyNoShadow(int casting) const;
+    /// Why rays cannot be had on this driver; empty if they can.
+    std::string whyNoRays() const;
+    /// Throws ContextError if they cannot.
+    void requireRays();
+    PlannedShadow shadowMethod(LightType type, int lights, int casting);
+    /// For programs that include shadow/rays.glsl; where any does, FramePlan::rays is to be set.
+    void rayDefines(Defines& defines) const;
+    void noteRays();
     /// What the scene has and the reference alone computes so far.
     void planUndrawn();
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights();
     Defines commonDefines() const;
     void lightDefines(Defines& defines, LightType type) const;
+    /// Of passes over the screen, for one model.
+    Defines screenDefines(const std::string& model) const;
+    int bodyCount(LightType type) const;
+    /// Whether lights with a body show on surfaces of this model.
+    bool showsBodies(const std::string& model) const;
+    PlannedArea areaMethod(const std::string& model) const;
+    void planBodyLights();
+    Defines bodyDefines(const std::string& model, LightType type) const;
+    Defines forwardBodyDefines(const std::string& model) const;
+    void planBodyPasses();
+    void planBodyPass(LightType type);
+    void shadowDefines(Defines& defines, LightType type) const;
     Defines surfaceDefines(const SurfaceFeatures& features) const;
     void planPasses();
     void planGbufferPass();
     void planCoverage();
-    void planLightPass(const std::string& name, const std::string& program, LightType type, int count);
+    /// Without variants.
+    PlannedPass lightPass(const std::string& name, const std::string& kind, const std::string& reason) const;
+    void planLightPass(LightType type, int count);
     void planForward();
     void planAccumulation();
     void planDataAovs();

@@ -11,10 +11,18 @@ const std::vector<std::string>& qualityPresetNames() {
 }
 
 Quality qualityPreset(const std::string& name) {
-    if (name == "draft") return {.samples = 1, .gbufferBits = 8, .textureBits = 8};
+    if (name == "draft") return {.samples = 1, .gbufferBits = 8, .textureBits = 8, .shadows = Shadows::none};
     if (name == "balanced") return {};
     if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16};
-    if (name == "converged") return {.samples = 16, .gbufferBits = 32, .textureBits = 32};
+    if (name == "converged")
+        return {.samples = 16,
+                .gbufferBits = 32,
+                .textureBits = 32,
+                .shadowMethod = ShadowMethod::rays,
+                .areaLights = AreaLights::sampled,
+                .lightSamples = 64,
+                .airlightNodes = 32,
+                .transparency = Transparency::peeled};
     throw UsageError("quality '" + name + "'; expected draft, balanced, high or converged" +
                      didYouMean(name, qualityPresetNames()));
 }

@@ -17,6 +17,28 @@ enum class FresnelEquations : uint8_t {
     schlick  ///< Schlick's approximation in place of the exact equations (withSchlick())
 };
 
+enum class Shadows : uint8_t {
+    none,
+    hard,  ///< as if every light were a point at its centre, or at infinity
+    soft   ///< lights with a body cast penumbrae; for the others the same as hard
+};
+
+enum class ShadowMethod : uint8_t {
+    automatic,  ///< the plan chooses for each type of light
+    maps,       ///< depth from the light, filtered
+    rays        ///< exact, through a hierarchy of bounding volumes
+};
+
+enum class AreaLights : uint8_t {
+    analytic,  ///< integrals in closed form or by fits, where a model has them
+    sampled    ///< points on the light: converges to the truth
+};
+
+enum class Transparency : uint8_t {
+    sorted,  ///< whole objects, back to front
+    peeled   ///< layer by layer, exact
+};
+
 struct Quality {
     /// Samples per pixel: jittered frames, accumulated in 32-bit float, box filter (anti-aliasing none,
     /// ssaa4, ssaa16).
@@ -37,6 +59,20 @@ struct Quality {
     /// 32 either way. A sample's radiance from 65504 on is infinite with 16.
     int radianceBits = 32;
     FresnelEquations fresnel = FresnelEquations::exact;
+
+    Shadows shadows = Shadows::soft;
+    ShadowMethod shadowMethod = ShadowMethod::automatic;
+    int shadowSize = 2048;  ///< texels along each side of a shadow map
+    int shadowTaps = 16;    ///< depth comparisons for each look into a shadow map
+    AreaLights areaLights = AreaLights::analytic;
+    /// Points on each light with a body, for each sample of a pixel: for its shadow, and where it is sampled.
+    int lightSamples = 16;
+    /// Most radiance that lights which are left out may take from a pixel, in thousandths of the radiance
+    /// that is shown as white; 0: no light is left out.
+    int lightThreshold = 0;
+    int airlightNodes =
+        8;  ///< of the quadrature along the view ray, for each light that fog scatters; 0: none
+    Transparency transparency = Transparency::sorted;
 
     bool operator==(const Quality&) const = default;
 };

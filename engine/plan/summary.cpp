@@ -107,6 +107,7 @@ void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) 
 
 void countLights(const Scene& scene, SceneSummary& summary) {
     for (const Light& light : scene.lights) {
+        if (light.castsShadow) ++summary.shadowLights[light.type];
         switch (light.type) {
             case LightType::directional:
                 ++summary.directionalLights;
@@ -208,6 +209,11 @@ SceneSummary summarise(const Scene& scene) {
         materials.insert(primitive.material);
         ++summary.instances;
         summary.triangles += primitive.triangleCount();
+        if (instance.castsShadow) {
+            summary.castingTriangles += primitive.triangleCount();
+            summary.maskedCasters |= material.alphaMode == AlphaMode::mask;
+            summary.blendedCasters |= material.alphaMode == AlphaMode::blend;
+        }
         summary.opaque |= material.alphaMode == AlphaMode::opaque;
         summary.masked |= material.alphaMode == AlphaMode::mask;
         summary.emission |= features.emission;

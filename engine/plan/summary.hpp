@@ -70,7 +70,8 @@ struct SceneSummary {
     std::vector<int> materialsInUse;        ///< indices into Scene::materials, ascending
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
-    std::map<LightType, int> bodyLights;  ///< rect, disk, sphere, tube: how many, where there are any
+    std::map<LightType, int> bodyLights;    ///< rect, disk, sphere, tube: how many, where there are any
+    std::map<LightType, int> shadowLights;  ///< that cast shadows, of each type
     bool environment = false, fog = false;
     bool ambient = false;
     bool emission = false;
@@ -78,9 +79,15 @@ struct SceneSummary {
     bool normalMaps = false, tangents = false, vertexColors = false, occlusion = false;
     bool uv[2] = {false, false};
     size_t triangles = 0, instances = 0, blendedInstances = 0;
+    size_t castingTriangles = 0;  ///< counting each instance that casts shadows
+    bool maskedCasters = false, blendedCasters = false;
     std::vector<std::string> textures;  ///< "images[0] helmet_albedo.jpg: baseColor of 2 materials"
     std::vector<std::string> unusedTextures;
 
+    int castingLights(LightType type) const {
+        const auto found = shadowLights.find(type);
+        return found == shadowLights.end() ? 0 : found->second;
+    }
     bool lit() const { return directionalLights + pointLights + spotLights > 0 || ambient; }
 };
 

@@ -88,10 +88,12 @@ std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& 
     const Scatterer scatterer{point, visible, random};
     addMirrored(point, visible, exact);
     if (!point.brdf->traits.scattersLight) return integrals;
+    static const Visibility kUnblocked = [](const glm::dvec3&, double) { return 1.0; };
     for (const Light& light : scene_.lights) {
+        const Scatterer lit{point, light.castsShadow ? visible : kUnblocked, random};
         if (isPunctual(light.type))
-            exact[static_cast<size_t>(sourceOf(light.type))] += punctual(point, visible, light);
-        else if (auto integral = bodyIntegral(scatterer, light, method_, effort))
+            exact[static_cast<size_t>(sourceOf(light.type))] += punctual(point, lit.visible, light);
+        else if (auto integral = bodyIntegral(lit, light, method_, effort))
             integrals.push_back(std::move(integral));
     }
     if (environment_ != nullptr) integrals.push_back(environmentIntegral(scatterer, *environment_, effort));

@@ -181,6 +181,7 @@ void Tracer::State::occluded(const RTCOccludedFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     const Part& part = *static_cast<const Part*>(arguments->geometryUserPtr);
     Query& query = *reinterpret_cast<Query*>(arguments->context);
+    if (!part.state->scene->instances[part.instance].castsShadow) return;
     if (arguments->primID == query.ownTriangle && part.instance == query.ownInstance) return;
     const std::optional<Hit> hit = part.mesh.intersect(arguments->primID, query.origin, query.direction);
     if (!hit || hit->t < query.tMin || hit->t > query.tMax) return;

@@ -92,6 +92,7 @@ struct Instance {
     int primitive = -1;
     glm::dmat4 worldFromLocal{1.0};
     std::string node;
+    bool castsShadow = true;  ///< LOBE_shadow
 };
 
 /// Punctual lights first: isPunctual().
@@ -111,10 +112,11 @@ struct Light {
     double outerConeAngle = 0.7853981633974483;
     /// World, unit, at right angles to `direction`: along a rect's width, along a tube.
     glm::dvec3 axis{1.0, 0.0, 0.0};
-    double width = 0.0;   ///< rect, along `axis`, metres
-    double height = 0.0;  ///< rect, across it, metres
-    double radius = 0.0;  ///< disk, sphere, tube, metres
-    double length = 0.0;  ///< tube: between the centres of its hemispherical ends, metres
+    double width = 0.0;       ///< rect, along `axis`, metres
+    double height = 0.0;      ///< rect, across it, metres
+    double radius = 0.0;      ///< disk, sphere, tube, metres
+    double length = 0.0;      ///< tube: between the centres of its hemispherical ends, metres
+    bool castsShadow = true;  ///< LOBE_shadow
 };
 
 constexpr bool isPunctual(LightType type) {

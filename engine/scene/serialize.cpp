@@ -180,14 +180,14 @@ void serialize(Archive& archive, Primitive& primitive) {
 
 template<typename Archive>
 void serialize(Archive& archive, Instance& instance) {
-    archive(instance.primitive, instance.worldFromLocal, instance.node);
+    archive(instance.primitive, instance.worldFromLocal, instance.node, instance.castsShadow);
 }
 
 template<typename Archive>
 void serialize(Archive& archive, Light& light) {
     archive(light.name, light.type, light.position, light.direction, light.intensity, light.range,
             light.innerConeAngle, light.outerConeAngle, light.axis, light.width, light.height, light.radius,
-            light.length);
+            light.length, light.castsShadow);
 }
 
 template<typename Archive>

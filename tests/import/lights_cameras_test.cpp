@@ -155,5 +155,25 @@ TEST(Cameras, DamageIsRefused) {
                 HasSubstr("cameras[0].orthographic.xmag: 0; expected a number other than 0"));
 }
 
+TEST(Lights, ANodeMayCastNoShadows) {
+    Gltf gltf = triangle();
+    gltf.doc["extensionsUsed"] = {"KHR_lights_punctual", "LOBE_shadow"};
+    gltf.doc["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}}});
+    for (const json& shadow : {json(nullptr), json::object(), json{{"cast", true}}, json{{"cast", false}}}) {
+        json node = {{"mesh", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+        if (!shadow.is_null()) node["extensions"]["LOBE_shadow"] = shadow;
+        Gltf with = gltf;
+        with.showNode(node);
+        const bool casts = !shadow.is_object() || shadow.value("cast", true);
+        const Imported imported = with.import();
+        EXPECT_THAT(imported.scene.warnings, IsEmpty());
+        EXPECT_EQ(imported.scene.lights.at(0).castsShadow, casts) << shadow;
+        EXPECT_EQ(imported.scene.instances.at(1).castsShadow, casts) << shadow;
+    }
+    json wrong = {{"extensions", {{"LOBE_shadow", {{"cast", 1}}}}}};
+    gltf.showNode(wrong);
+    EXPECT_THAT(gltf.refusal(), HasSubstr("LOBE_shadow.cast"));
+}
+
 }  // namespace
 }  // namespace lobe::test

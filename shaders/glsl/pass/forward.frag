@@ -14,13 +14,35 @@ uniform vec3 uAmbientRadiance;
 
 #ifdef CONTRIBUTIONS
 // What lies behind is dimmed in each contribution; a blended surface's own light is "transparent".
-layout(location = 0) out vec4 oEmission;
-layout(location = 1) out vec4 oAmbient;
-layout(location = 2) out vec4 oDirectional;
-layout(location = 3) out vec4 oPoint;
-layout(location = 4) out vec4 oSpot;
-layout(location = 5) out vec4 oTransparent;
-layout(location = 6) out vec4 oCoverage;
+#ifdef OUT_CONTRIBUTION_EMISSION
+layout(location = OUT_CONTRIBUTION_EMISSION) out vec4 oEmission;
+#endif
+#ifdef OUT_CONTRIBUTION_AMBIENT
+layout(location = OUT_CONTRIBUTION_AMBIENT) out vec4 oAmbient;
+#endif
+#ifdef OUT_CONTRIBUTION_DIRECTIONAL
+layout(location = OUT_CONTRIBUTION_DIRECTIONAL) out vec4 oDirectional;
+#endif
+#ifdef OUT_CONTRIBUTION_POINT
+layout(location = OUT_CONTRIBUTION_POINT) out vec4 oPoint;
+#endif
+#ifdef OUT_CONTRIBUTION_SPOT
+layout(location = OUT_CONTRIBUTION_SPOT) out vec4 oSpot;
+#endif
+#ifdef OUT_CONTRIBUTION_RECT
+layout(location = OUT_CONTRIBUTION_RECT) out vec4 oRect;
+#endif
+#ifdef OUT_CONTRIBUTION_DISK
+layout(location = OUT_CONTRIBUTION_DISK) out vec4 oDisk;
+#endif
+#ifdef OUT_CONTRIBUTION_SPHERE
+layout(location = OUT_CONTRIBUTION_SPHERE) out vec4 oSphere;
+#endif
+#ifdef OUT_CONTRIBUTION_TUBE
+layout(location = OUT_CONTRIBUTION_TUBE) out vec4 oTube;
+#endif
+layout(location = OUT_CONTRIBUTION_TRANSPARENT) out vec4 oTransparent;
+layout(location = CONTRIBUTIONS) out vec4 oCoverage;
 #else
 layout(location = 0) out vec4 oRadiance;
 #endif
@@ -47,18 +69,48 @@ void main()
 #else
     Frame frame = frame_from_normal(surface_normal());
 #endif
-    radiance += all_lights(light_receiver(vPosition, ray, dot(vPosition, uForward), frame), params);
+    LightReceiver receiver = light_receiver(vPosition, ray, dot(vPosition, uForward), frame);
+#ifdef SHADOWS
+    receiver.geometric_normal = surface_geometric_normal();
+    receiver.behind = 1.0 - alpha;
+#endif
+    radiance += all_lights(receiver, params);
+    float marked = light_alpha(alpha);
+#else
+    float marked = alpha;
 #endif
 #ifdef CONTRIBUTIONS
     vec4 dim = vec4(0.0, 0.0, 0.0, alpha);
+#ifdef OUT_CONTRIBUTION_EMISSION
     oEmission = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_AMBIENT
     oAmbient = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_DIRECTIONAL
     oDirectional = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_POINT
     oPoint = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_SPOT
     oSpot = dim;
-    oTransparent = vec4(radiance * alpha, alpha);
+#endif
+#ifdef OUT_CONTRIBUTION_RECT
+    oRect = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_DISK
+    oDisk = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_SPHERE
+    oSphere = dim;
+#endif
+#ifdef OUT_CONTRIBUTION_TUBE
+    oTube = dim;
+#endif
+    oTransparent = vec4(radiance * alpha, marked);
     oCoverage = dim;
 #else
-    oRadiance = vec4(radiance * alpha, alpha);
+    oRadiance = vec4(radiance * alpha, marked);
 #endif
 }

@@ -10,6 +10,9 @@ uniform vec3 uForward;
 #if defined(OUT_NORMAL) && !defined(UNLIT)
 layout(location = OUT_NORMAL) out vec2 oNormal;
 #endif
+#if defined(OUT_GEOMETRIC_NORMAL) && !defined(UNLIT)
+layout(location = OUT_GEOMETRIC_NORMAL) out vec2 oGeometricNormal;
+#endif
 #if defined(OUT_TANGENT) && !defined(UNLIT)
 layout(location = OUT_TANGENT) out float oTangent;
 #endif
@@ -45,6 +48,9 @@ void main()
 #ifndef UNLIT
 #ifdef OUT_NORMAL
     oNormal = gbuffer_encode_normal(surface_normal_direction());
+#endif
+#ifdef OUT_GEOMETRIC_NORMAL
+    oGeometricNormal = octahedral_encode_unorm16(surface_geometric_normal());
 #endif
 #ifdef OUT_TANGENT
 #ifdef USES_TANGENT

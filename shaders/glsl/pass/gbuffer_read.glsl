@@ -8,6 +8,9 @@ uniform vec3 uRayDirection, uRayDirectionDx, uRayDirectionDy;
 #ifdef HAS_NORMAL
 uniform sampler2D uNormal;
 #endif
+#ifdef SHADOWS
+uniform sampler2D uGeometricNormal;
+#endif
 #ifdef USES_TANGENT
 uniform sampler2D uTangent;
 #endif
@@ -52,4 +55,10 @@ vec3 gbuffer_position(float z, vec3 ray)
 
 #ifdef HAS_NORMAL
 vec3 gbuffer_normal() { return gbuffer_decode_normal(texelFetch(uNormal, gbuffer_pixel(), 0).xy); }
+#endif
+#ifdef SHADOWS
+vec3 gbuffer_geometric_normal()
+{
+    return octahedral_decode_unorm16(texelFetch(uGeometricNormal, gbuffer_pixel(), 0).xy);
+}
 #endif

@@ -17,5 +17,10 @@ void main()
     Frame frame = frame_from_normal(gbuffer_normal());
 #endif
     LightReceiver receiver = light_receiver(gbuffer_position(z, ray), ray, z, frame);
-    oRadiance = vec4(all_lights(receiver, gbuffer_read_params()), 0.0);
+#ifdef SHADOWS
+    receiver.geometric_normal = gbuffer_geometric_normal();
+    receiver.behind = 0.0;
+#endif
+    vec3 radiance = all_lights(receiver, gbuffer_read_params());
+    oRadiance = vec4(radiance, light_alpha(0.0));
 }

@@ -30,6 +30,17 @@ vec3 surface_normal()
     return length2 > 1e-12 ? n * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
 }
 
+/// The triangle's own normal, unit, on the side that is seen: the change of position across and up the picture turns
+/// towards the eye. Differences are of the size of a pixel on the surface, with the rounding of the position.
+vec3 surface_geometric_normal()
+{
+    vec3 dx = dFdx(vPosition), dy = dFdy(vPosition);
+    float size = max(max(max(abs(dx.x), abs(dx.y)), abs(dx.z)), max(max(abs(dy.x), abs(dy.y)), abs(dy.z)));
+    vec3 n = cross(dx / max(size, 1e-30), dy / max(size, 1e-30));
+    float length2 = dot(n, n);
+    return length2 > 1e-24 ? n * inversesqrt(length2) : surface_normal();
+}
+
 #ifdef USES_TANGENT
 vec4 surface_tangent() { return vTangent; }
 #endif

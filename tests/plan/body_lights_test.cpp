@@ -1,0 +1,199 @@
+// Lights with a body in the plan: nothing of them without one, and each choice with its reason.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "plan/plan.hpp"
+#include "support/scenes.hpp"
+
+namespace lobe {
+namespace {
+
+Capabilities modern() {
+    Capabilities capabilities;
+    capabilities.clipControl = true;
+    capabilities.maxTextureSize = 16384;
+    return capabilities;
+}
+
+Scene quad(const std::string& brdf = "lambert") {
+    Scene scene;
+    test::addInstance(scene, test::addQuad(scene, test::addMaterial(scene, brdf), 1.0f));
+    return scene;
+}
+
+Light body(LightType type) {
+    Light light;
+    light.type = type;
+    light.width = light.height = light.radius = light.length = 1.0;
+    light.position = {0, 0, 2};
+    return light;
+}
+
+Scene underBody(LightType type, const std::string& brdf = "lambert") {
+    Scene scene = quad(brdf);
+    scene.lights.push_back(body(type));
+    return scene;
+}
+
+FramePlan planOf(const Scene& scene, const Quality& quality = {}, const AovSet& aovs = {Aov::radiance}) {
+    return planFrame(summarise(scene), quality, modern(), aovs);
+}
+
+std::string reasonFor(const FramePlan& plan, const std::string& name) {
+    for (const LeftOut& leftOut : plan.leftOut)
+        if (leftOut.name == name) return leftOut.reason;
+    return {};
+}
+
+std::set<std::string> defines(const FramePlan& plan) {
+    std::set<std::string> all;
+    for (const PlannedPass& pass : plan.passes)
+        for (const Variant& variant : pass.variants)
+            for (const auto& [key, value] : variant.defines)
+                all.insert(key);
+    return all;
+}
+
+constexpr LightType kBodies[] = {LightType::rect, LightType::disk, LightType::sphere, LightType::tube};
+
+TEST(BodyLightPlan, AbsentWithoutThem) {
+    Scene scene = quad();
+    scene.lights.push_back(test::point({0, 0, 2}, glm::dvec3(1.0)));
+    const FramePlan plan = planOf(scene, {}, {Aov::radiance, Aov::contributions});
+    for (LightType type : kBodies) {
+        const std::string name = std::string("light.") + nameOf(type);
+        EXPECT_EQ(plan.pass(name), nullptr);
+        EXPECT_EQ(reasonFor(plan, name), "the scene has no " + std::string(nameOf(type)) + " light");
+        EXPECT_EQ(plan.channel(std::string("contribution.") + nameOf(type)), nullptr);
+    }
+    EXPECT_EQ(plan.areaPoints, 0);
+    for (const std::string& key : defines(plan))
+        EXPECT_THAT(key, testing::Not(testing::StartsWith("AREA_"))) << key;
+}
+
+TEST(BodyLightPlan, EachTypeHasItsPassAndContribution) {
+    for (LightType type : kBodies) {
+        const FramePlan plan = planOf(underBody(type), {}, {Aov::radiance, Aov::contributions});
+        const std::string kind = nameOf(type);
+        const PlannedPass* pass = plan.pass("light." + kind);
+        ASSERT_NE(pass, nullptr) << kind;
+        EXPECT_THAT(pass->writes, testing::ElementsAre("contribution." + kind));
+        EXPECT_THAT(pass->reads, testing::Contains("normal"));
+        ASSERT_EQ(pass->variants.size(), 1u);
+        for (LightType other : kBodies)
+            EXPECT_EQ(plan.pass(std::string("light.") + nameOf(other)) != nullptr, other == type);
+    }
+}
+
+TEST(BodyLightPlan, ClosedFormWhereThereIsOne) {
+    Quality quality;
+    quality.shadows = Shadows::none;
+    const FramePlan lambert = planOf(underBody(LightType::disk), quality);
+    EXPECT_EQ(lambert.areaMethods.at("lambert").method, AreaMethod::analytic);
+    EXPECT_TRUE(defines(lambert).contains("AREA_ANALYTIC"));
+    EXPECT_FALSE(defines(lambert).contains("AREA_SAMPLED"));
+    EXPECT_EQ(lambert.areaPoints, 0);
+    EXPECT_EQ(reasonFor(lambert, "points on lights"), "closed forms need none, and no shadow is soft");
+    const FramePlan phong = planOf(underBody(LightType::disk, "phong"), quality);
+    EXPECT_EQ(phong.areaMethods.at("phong").method, AreaMethod::sampled);
+    EXPECT_FALSE(defines(phong).contains("AREA_ANALYTIC"));
+    EXPECT_TRUE(defines(phong).contains("AREA_SAMPLED"));
+    EXPECT_EQ(phong.areaPoints, quality.lightSamples);
+    quality.areaLights = AreaLights::sampled;
+    EXPECT_EQ(planOf(underBody(LightType::disk), quality).areaMethods.at("lambert").method,
+              AreaMethod::sampled);
+}
+
+TEST(BodyLightPlan, RaysOnlyForShadows) {
+    Scene scene = underBody(LightType::tube);
+    Quality quality;
+    quality.shadows = Shadows::none;
+    const FramePlan none = planOf(scene, quality);
+    EXPECT_FALSE(none.rays);
+    EXPECT_EQ(none.channel("geometric_normal"), nullptr);
+    for (const char* key : {"SHADOWS", "AREA_SHADOWS", "AREA_HARD_SHADOWS", "RAY_ALPHA"})
+        EXPECT_FALSE(defines(none).contains(key)) << key;
+    quality.shadows = Shadows::hard;
+    const FramePlan hard = planOf(scene, quality);
+    EXPECT_TRUE(hard.rays);
+    EXPECT_TRUE(defines(hard).contains("AREA_HARD_SHADOWS"));
+    EXPECT_FALSE(defines(hard).contains("AREA_SAMPLED")) << "one ray to the centre";
+    quality.shadows = Shadows::soft;
+    const FramePlan soft = planOf(scene, quality);
+    EXPECT_TRUE(defines(soft).contains("AREA_SHADOWS"));
+    EXPECT_TRUE(defines(soft).contains("AREA_ANALYTIC")) << "only the share that arrives is sampled";
+    EXPECT_TRUE(defines(soft).contains("AREA_SAMPLED"));
+    EXPECT_FALSE(defines(soft).contains("RAY_ALPHA"));
+    EXPECT_FALSE(defines(soft).contains("AREA_SPLIT"));
+    quality.lightSamples = 256;
+    EXPECT_TRUE(defines(planOf(scene, quality)).contains("AREA_SPLIT")) << "more rays than one draw may have";
+    scene.lights[0].castsShadow = false;
+    const FramePlan cast = planOf(scene, quality);
+    EXPECT_FALSE(cast.rays);
+    EXPECT_EQ(reasonFor(cast, "tube"), "LOBE_shadow says of each of these lights that it casts none");
+}
+
+/// A mirror shows no light without extent, and shows these: the nearest of all types.
+TEST(BodyLightPlan, MirrorsIntersectEveryBody) {
+    Scene scene = underBody(LightType::rect, "mirror");
+    scene.lights.push_back(body(LightType::sphere));
+    Quality quality;
+    quality.shadows = Shadows::none;
+    const FramePlan plan = planOf(scene, quality);
+    EXPECT_NE(plan.channel("normal"), nullptr);
+    EXPECT_EQ(plan.areaPoints, 0);
+    for (const char* name : {"light.rect", "light.sphere"}) {
+        ASSERT_NE(plan.pass(name), nullptr) << name;
+        const auto& own = plan.pass(name)->variants.front().defines;
+        for (const char* key : {"MIRRORED_LIGHTS", "RECT_LIGHTS", "SPHERE_LIGHTS"})
+            EXPECT_TRUE(own.contains(key)) << name << ' ' << key;
+        EXPECT_FALSE(own.contains("TUBE_LIGHTS"));
+    }
+    EXPECT_EQ(plan.pass("light.rect")->variants.front().defines.at("MIRRORED_TYPE"), "0");
+    EXPECT_EQ(plan.pass("light.sphere")->variants.front().defines.at("MIRRORED_TYPE"), "2");
+}
+
+TEST(BodyLightPlan, ForwardSurfacesKeepToOneDraw) {
+    Scene scene = underBody(LightType::rect);
+    scene.materials[0].alphaMode = AlphaMode::blend;
+    for (int i = 0; i < 7; ++i)
+        scene.lights.push_back(body(LightType::disk));
+    Quality quality;
+    quality.lightSamples = 64;
+    const FramePlan plan = planOf(scene, quality);
+    EXPECT_EQ(plan.pass("light.rect"), nullptr);
+    ASSERT_NE(plan.pass("forward"), nullptr);
+    const auto& own = plan.pass("forward")->variants.front().defines;
+    for (const char* key : {"RECT_LIGHTS", "DISK_LIGHTS", "AREA_SHADOWS", "AREA_ANALYTIC"})
+        EXPECT_TRUE(own.contains(key)) << key;
+    EXPECT_EQ(plan.areaPointsForward, kRaysPerForwardDraw / 8);
+    EXPECT_THAT(plan.notes, testing::Contains(testing::HasSubstr("8 points on each light of 64")));
+}
+
+/// Eight colour attachments are what drivers have: contributions of lights that the scene lacks make room.
+TEST(BodyLightPlan, ContributionsOfBlendedSurfacesFit) {
+    Scene scene = underBody(LightType::rect);
+    scene.materials[0].alphaMode = AlphaMode::blend;
+    for (LightType type : {LightType::disk, LightType::sphere, LightType::tube})
+        scene.lights.push_back(body(type));
+    const AovSet aovs{Aov::radiance, Aov::contributions};
+    const FramePlan plan = planOf(scene, {}, aovs);
+    EXPECT_LE(plan.contributionTargets.size(), 7u);
+    EXPECT_THAT(plan.contributionTargets,
+                testing::IsSupersetOf({"rect", "disk", "sphere", "tube", "transparent"}));
+    scene.lights.push_back(test::point({0, 0, 2}, glm::dvec3(1.0)));
+    EXPECT_THROW(planOf(scene, {}, aovs), ContextError);
+    EXPECT_NO_THROW(planOf(scene));
+}
+
+TEST(BodyLightPlan, SaysWhatItDoes) {
+    const std::string text = toText(planOf(underBody(LightType::sphere, "ggx")));
+    EXPECT_THAT(text, testing::HasSubstr(
+                          "sphere: 1 light, one loop over all; ggx by points on each: the model has no "
+                          "closed form"));
+    EXPECT_THAT(text, testing::HasSubstr("16 points on each, each with a ray for its shadow"));
+}
+
+}  // namespace
+}  // namespace lobe

@@ -1,0 +1,260 @@
+/// Pictures of surfaces under lights with a body, drawn with OpenGL, against the reference.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "passes/renderer.hpp"
+#include "reference/pixel.hpp"
+#include "support/scenes.hpp"
+
+namespace lobe::reference {
+namespace {
+
+constexpr int kWidth = 48, kHeight = 36;
+
+gl::Context& context() {
+    static const std::unique_ptr<gl::Context> one = gl::Context::create({.backend = gl::Backend::egl});
+    return *one;
+}
+
+Light body(LightType type) {
+    Light light;
+    light.type = type;
+    light.position = {-0.6, 1.1, 0.5};
+    light.direction = glm::normalize(glm::dvec3(0.5, -1.0, -0.4));
+    light.axis = glm::normalize(glm::cross(light.direction, glm::dvec3(0.2, 0.3, 1.0)));
+    light.width = 0.8;
+    light.height = 0.5;
+    light.radius = type == LightType::tube ? 0.04 : 0.3;
+    light.length = 0.9;
+    const bool flat = type == LightType::rect || type == LightType::disk;
+    light.intensity = flat ? glm::dvec3(3.0, 2.5, 2.0) : glm::dvec3(1.0, 0.9, 0.8);
+    if (!flat) light.range = 6.0;
+    return light;
+}
+
+/// A ball over the ground: the horizon cuts the light on the one and, at its far end, on the other; the ball
+/// throws a penumbra.
+Scene ballOnGround(const std::string& model) {
+    Scene scene;
+    const int ground = test::addMaterial(scene, model), ball = test::addMaterial(scene, model);
+    test::addInstance(scene, test::addQuad(scene, ground, 3.0f),
+                      glm::rotate(glm::dmat4(1.0), -1.5707963267948966, glm::dvec3(1, 0, 0)));
+    test::addInstance(scene, test::addSphere(scene, ball, 32),
+                      glm::scale(glm::translate(glm::dmat4(1.0), {0.1, 0.35, 0.0}), glm::dvec3(0.35)));
+    return scene;
+}
+
+Camera camera() {
+    Camera camera = lookAt({0.3, 1.3, 2.6}, {0.0, 0.25, 0.0}, 0.65);
+    camera.zNear = 0.01;
+    return camera;
+}
+
+struct Error {
+    double mean = 0.0;     ///< of |difference|, of the mean radiance
+    double largest = 0.0;  ///< of difference / (radiance + half the mean)
+    double rms = 0.0;      ///< of the same
+    double missing = 0.0;  ///< drawn mean / true mean - 1
+    int compared = 0;
+    bool bad = false;  ///< not finite or negative
+};
+
+Image drawn(const Scene& scene, const Quality& quality, AovSet aovs = {Aov::radiance, Aov::materialId}) {
+    RenderOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.quality = quality;
+    options.aovs = std::move(aovs);
+    context().makeCurrent();
+    Renderer renderer(context());
+    renderer.setScene(std::make_shared<const Scene>(scene), options);
+    return renderer.render(camera()).image;
+}
+
+/// Every pixel's truth, on all cores; each with its neighbours' materials.
+std::vector<PixelTruth> truth(const Scene& scene, bool shadows, double error) {
+    const PixelIntegrator integrator(std::make_shared<const Scene>(scene), camera(), kWidth, kHeight,
+                                     {.filter = PixelFilter::point, .shadows = shadows});
+    std::vector<PixelTruth> pixels(kWidth * kHeight);
+    Effort effort;
+    effort.relativeError = error;
+    effort.floor = glm::dvec3(0.02);
+    std::vector<std::thread> threads;
+    const unsigned count = std::max(1u, std::thread::hardware_concurrency());
+    for (unsigned t = 0; t < count; ++t)
+        threads.emplace_back([&, t] {
+            for (int y = static_cast<int>(t); y < kHeight; y += static_cast<int>(count))
+                for (int x = 0; x < kWidth; ++x)
+                    pixels[static_cast<size_t>(y * kWidth + x)] = integrator.at(x, y, effort, 1);
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    return pixels;
+}
+
+size_t channelOf(const Image& image, const std::string& name) {
+    return static_cast<size_t>(std::find(image.channels.begin(), image.channels.end(), name) -
+                               image.channels.begin());
+}
+
+/// Where both see one material.
+Error compare(const Image& image, const std::vector<PixelTruth>& truths) {
+    Error error;
+    const size_t id = channelOf(image, "material.id");
+    double sum = 0.0, got = 0.0;
+    for (const PixelTruth& pixel : truths)
+        sum += glm::dot(pixel.total(), glm::dvec3(1.0)) / 3.0;
+    const double mean = sum / static_cast<double>(truths.size());
+    sum = 0.0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const PixelTruth& expected = truths[static_cast<size_t>(y * kWidth + x)];
+            const float* pixel = image.pixel(x, y);
+            for (int c = 0; c < 3; ++c)
+                error.bad |= !std::isfinite(pixel[c]) || pixel[c] < 0.0f;
+            if (static_cast<int>(pixel[id]) != expected.material || expected.material == 0) continue;
+            ++error.compared;
+            for (int c = 0; c < 3; ++c) {
+                const double value = expected.total()[c], off = static_cast<double>(pixel[c]) - value;
+                sum += value;
+                got += static_cast<double>(pixel[c]);
+                error.mean += std::abs(off);
+                const double relative = off / (value + 0.5 * mean);
+                error.largest = std::max(error.largest, std::abs(relative));
+                error.rms += relative * relative;
+            }
+        }
+    error.mean /= sum;
+    error.missing = got / sum - 1.0;
+    error.rms = std::sqrt(error.rms / (3.0 * error.compared));
+    return error;
+}
+
+void print(const char* what, const Error& e) {
+    std::printf("%s: mean %.2e, rms %.2e, largest %.2e, bias %.2e, %d pixels\n", what, e.mean, e.rms,
+                e.largest, e.missing, e.compared);
+}
+
+Quality exact() {
+    Quality quality;
+    quality.samples = 1;
+    quality.gbufferBits = 32;
+    quality.shadows = Shadows::none;
+    return quality;
+}
+
+struct Type {
+    LightType type;
+    const char* name;
+};
+
+class BodyPicture : public testing::TestWithParam<std::tuple<LightType, const char*>> {
+protected:
+    Scene scene() const {
+        Scene made = ballOnGround(std::get<1>(GetParam()));
+        made.lights.push_back(body(std::get<0>(GetParam())));
+        return made;
+    }
+    std::string name() const {
+        return std::string(nameOf(std::get<0>(GetParam()))) + " " + std::get<1>(GetParam());
+    }
+};
+
+TEST_P(BodyPicture, UnshadowedAgreesWithTheReference) {
+    const Scene made = scene();
+    const auto truths = truth(made, false, 1e-3);
+    Quality quality = exact();
+    const Image analytic = drawn(made, quality);
+    const Error closed = compare(analytic, truths);
+    print((name() + " as planned").c_str(), closed);
+    EXPECT_FALSE(closed.bad);
+    EXPECT_GT(closed.compared, kWidth * kHeight / 2);
+    quality.areaLights = AreaLights::sampled;
+    double before = 0.0;
+    for (int points : {16, 256}) {
+        quality.lightSamples = points;
+        const Error sampled = compare(drawn(made, quality), truths);
+        print((name() + " " + std::to_string(points) + " points").c_str(), sampled);
+        EXPECT_FALSE(sampled.bad);
+        if (points == 256) {
+            EXPECT_LT(sampled.mean, 0.01);
+            EXPECT_LT(sampled.rms, 0.6 * before + 1e-3);
+            EXPECT_LT(std::abs(sampled.missing), 2e-3);
+        }
+        before = sampled.rms;
+    }
+    if (std::string(std::get<1>(GetParam())) == "lambert") {
+        EXPECT_LT(closed.mean, 5e-4);
+        EXPECT_LT(closed.largest, 5e-3);
+    }
+}
+
+TEST_P(BodyPicture, ShadowedAgreesWithTheReference) {
+    const Scene made = scene();
+    const auto truths = truth(made, true, 5e-3);
+    Quality quality = exact();
+    quality.shadows = Shadows::soft;
+    for (int points : {4, 64}) {
+        quality.lightSamples = points;
+        const Error error = compare(drawn(made, quality), truths);
+        print((name() + " shadowed " + std::to_string(points)).c_str(), error);
+        EXPECT_FALSE(error.bad);
+        if (points == 64) {
+            EXPECT_LT(error.mean, 0.02);
+            EXPECT_LT(std::abs(error.missing), 4e-3);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(TypesAndModels, BodyPicture,
+                         testing::Combine(testing::Values(LightType::rect, LightType::disk, LightType::sphere,
+                                                          LightType::tube),
+                                          testing::Values("lambert", "ggx", "phong")));
+
+/// A mirror shows the nearest of all bodies, sharply.
+TEST(BodyPictures, AMirrorShowsTheBodies) {
+    Scene made = ballOnGround("lambert");
+    const int mirror = test::addMaterial(made, "mirror");
+    made.primitives[1].material = mirror;
+    for (LightType type : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube}) {
+        Light light = body(type);
+        light.position = glm::dvec3(-0.9 + 0.6 * (static_cast<int>(type) - 3), 1.0, 1.0);
+        light.direction = glm::normalize(glm::dvec3(0.1, 0.3, 0.0) - light.position);
+        light.axis = glm::normalize(glm::cross(light.direction, glm::dvec3(0.2, 0.9, 0.3)));
+        made.lights.push_back(light);
+    }
+    for (bool shadows : {false, true}) {
+        const auto truths = truth(made, shadows, 5e-3);
+        Quality quality = exact();
+        if (shadows) quality.shadows = Shadows::soft;
+        quality.lightSamples = 64;
+        const Error error = compare(drawn(made, quality), truths);
+        print(shadows ? "mirror, shadowed" : "mirror", error);
+        EXPECT_FALSE(error.bad);
+        EXPECT_LT(error.mean, 0.03);
+        const Image parts = drawn(made, quality, {Aov::radiance, Aov::materialId, Aov::contributions});
+        double largest = 0.0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const float* pixel = parts.pixel(x, y);
+                const PixelTruth& expected = truths[static_cast<size_t>(y * kWidth + x)];
+                if (static_cast<int>(pixel[channelOf(parts, "material.id")]) != 3 || expected.material != 3)
+                    continue;
+                for (LightType type :
+                     {LightType::rect, LightType::disk, LightType::sphere, LightType::tube}) {
+                    const double got =
+                        static_cast<double>(pixel[channelOf(parts, std::string(nameOf(type)) + ".R")]);
+                    const double wanted = expected.radiance[static_cast<size_t>(sourceOf(type))].x;
+                    // A body's edge may fall on the other side of the pixel's centre.
+                    if (got > 0.0 && wanted > 0.0) largest = std::max(largest, std::abs(got / wanted - 1.0));
+                }
+            }
+        EXPECT_LT(largest, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace lobe::reference
