@@ -12,7 +12,8 @@ namespace {
 constexpr size_t kFitDraws = 1024;     // of each search
 constexpr size_t kWeightDraws = 4096;  // of weights and albedos
 constexpr int kWidthNodes = 24;
-constexpr int kFreshNode = 30;         // 69 degrees, where lobes differ most from round ones and are still resolved
+/// Where rows may begin: 69 degrees, where lobes differ most from round ones and are still resolved; 49 and 28.
+constexpr std::array kFreshNodes{30, 20, 12};
 constexpr int kSmoothings = 2;
 
 /// What one fit stands for: a term on its own, or all terms with the material's colours.
@@ -62,22 +63,53 @@ public:
             samples_.push_back(lobeSamples(ofNode, target));
     }
 
+    /// Some beginnings lead to a place where two kinds of fit meet, which are no good in between.
     std::vector<LobeFit> fits(const std::vector<LobeFit>& likeThese) {
-        fits_.resize(samples_.size());
+        std::vector<LobeFit> best;
+        double least = HUGE_VAL;
+        for (int node : kFreshNodes) {
+            fitFrom(node, likeThese);
+            const double steepest = costBetween();
+            if (steepest < least) {
+                least = steepest;
+                best = fits_;
+            }
+            if (least < kGoodBetween) break;
+        }
+        return best;
+    }
+
+private:
+    /// About 2 % of the light of discs.
+    static constexpr double kGoodBetween = 8e-3;
+
+    void fitFrom(int fresh, const std::vector<LobeFit>& likeThese) {
+        fits_.assign(samples_.size(), {});
         const auto last = static_cast<int>(samples_.size()) - 1;
-        startAt(kFreshNode, likeThese);
-        for (int n = kFreshNode + 1; n <= last; ++n)
+        startAt(fresh, likeThese);
+        for (int n = fresh + 1; n <= last; ++n)
             improveAt(n, fit(n - 1));
-        for (int n = kFreshNode - 1; n > 0; --n)
+        for (int n = fresh - 1; n > 0; --n)
             improveAt(n, fit(n + 1));
         roundAt0();
         for (int pass = 0; pass < kSmoothings; ++pass)
             for (int n = 1; n < last; ++n)
                 improveAt(n, between(fit(n - 1), fit(n + 1), 0.5));
-        return fits_;
     }
 
-private:
+    /// Largest cost that is added where a node is interpolated from its neighbours, up to 85 degrees.
+    double costBetween() {
+        constexpr int kLastChecked = 37;
+        double most = 0.0;
+        for (int n = 1; n <= kLastChecked; ++n) {
+            const auto& samples = samples_[static_cast<size_t>(n)];
+            if (isDark(samples)) continue;
+            const LobeFit middle = between(fit(n - 1), fit(n + 1), 0.5);
+            most = std::max(most, costOf(middle, samples, kFitDraws, options_.cosines) - fit(n).cost);
+        }
+        return most;
+    }
+
     LobeFit& fit(int node) { return fits_[static_cast<size_t>(node)]; }
 
     void improveAt(int node, const LobeFit& start) {

@@ -214,6 +214,13 @@ LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, si
     return fitOf(residuals, x);
 }
 
+double costOf(const LobeFit& fit, const std::vector<LobeSample>& samples, size_t drawn, bool cosines) {
+    FitOptions options;
+    options.cosines = cosines;
+    const Eigen::VectorXd x = numbersOf(fit, options);
+    return fitOf(Residuals(samples, drawn, options, x), x).cost;
+}
+
 LobeFit fitFresh(const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options) {
     const double slope = medianSlope(samples);
     const double weight = albedoOf(samples, drawn) / static_cast<double>(kLobes);
@@ -260,10 +267,18 @@ std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<Lo
         secondAlbedo += b / s.density;
     }
     if (!(albedo > 0.0)) return {0.0, 0.0};
+    // A lobe that is nearly all below the horizon would need a weight beyond all measure.
+    constexpr double kLeastAbove = 0.15;
+    const double most = std::max(firstAlbedo, secondAlbedo);
+    const auto drowned = [&](double above) {
+        return above / static_cast<double>(drawn) < kLeastAbove && above < most;
+    };
+    if (drowned(firstAlbedo)) aa = ab = af = 0.0;
+    if (drowned(secondAlbedo)) bb = ab = bf = 0.0;
     const double det = aa * bb - ab * ab;
     std::array<double, kLobes> weights{};
-    if (det > 1e-12 * aa * bb) weights = {(af * bb - bf * ab) / det, (bf * aa - af * ab) / det};
-    if (!(weights[0] >= 0.0 && weights[1] >= 0.0) || !(det > 1e-12 * aa * bb)) {
+    if (aa * bb > 0.0 && det > 1e-12 * aa * bb) weights = {(af * bb - bf * ab) / det, (bf * aa - af * ab) / det};
+    if (!(weights[0] >= 0.0 && weights[1] >= 0.0) || !(aa * bb > 0.0 && det > 1e-12 * aa * bb)) {
         const double onlyFirst = aa > 0.0 ? af / aa : 0.0, onlySecond = bb > 0.0 ? bf / bb : 0.0;
         if (onlyFirst * af >= onlySecond * bf)
             weights = {onlyFirst, 0.0};

@@ -46,6 +46,9 @@ struct FitOptions {
 /// the horizon and are not among `samples`.
 LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options);
 
+/// The cost of a fit as it is.
+double costOf(const LobeFit& fit, const std::vector<LobeSample>& samples, size_t drawn, bool cosines);
+
 /// The best of fits from several starts.
 LobeFit fitFresh(const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options);
 

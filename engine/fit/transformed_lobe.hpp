@@ -1,9 +1,9 @@
 /// Cosine powers under linear maps: the shapes that lobes of reflectance models are fitted with.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 namespace lobe::fit {
 
@@ -31,9 +31,12 @@ struct TransformedLobe {
     double density(const glm::dvec3& w) const;
 };
 
-/// Integral of the density over the directions of a convex polygon that is seen from the origin, its vertices not
-/// normalised, in the view's frame; the adaptive twin of transformed_lobe.glsl. Clipped where the map turns it below
-/// z = 0. Positive for vertices that run counter-clockwise as the origin sees them.
+/// The part of a convex polygon where dot(w, normal) >= 0.
+std::vector<glm::dvec3> clipped(std::span<const glm::dvec3> polygon, const glm::dvec3& normal);
+
+/// Integral of the density over the directions in which the origin sees a convex polygon, its vertices not normalised
+/// and in the view's frame: the twin of the sums about the boundary in light/transformed_lobe.glsl, with quadrature of
+/// high order. Positive for vertices that run counter-clockwise as the origin sees them.
 double polygonIntegral(const TransformedLobe& lobe, std::span<const glm::dvec3> polygon);
 
 }  // namespace lobe::fit
