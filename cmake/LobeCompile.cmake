@@ -14,6 +14,8 @@ endif()
 target_compile_options(lobe_compile INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>>)
 # The same formula must give the same bits whichever compiler inlines it: twins and camera matrices are compared.
 target_compile_options(lobe_compile INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
+# As ccache wants it where headers are precompiled.
+target_compile_options(lobe_compile INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>>)
 if(LOBE_WARNINGS_AS_ERRORS)
   target_compile_options(lobe_compile INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()

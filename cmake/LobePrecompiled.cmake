@@ -1,0 +1,36 @@
+# Headers of others that most files include, parsed once instead of some hundred times: a full build takes a third less.
+# None of ours: a change of one would rebuild all. Off with the clang preset, so that each file still names what it uses.
+option(LOBE_PRECOMPILED_HEADERS "Parse standard, GLM, JSON and GoogleTest headers once" ON)
+
+set(LOBE_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional> <limits> <map> <memory> <numeric>
+    <optional> <set> <span> <sstream> <string> <string_view> <utility> <vector> <glm/glm.hpp> <nlohmann/json.hpp>)
+
+# What a header was parsed with must be what it is used with; libraries (-fPIC) and programs (-fPIE) differ.
+if(LOBE_PRECOMPILED_HEADERS)
+  file(WRITE ${CMAKE_BINARY_DIR}/generated/precompiled_library.cpp "// Holds the precompiled headers of libraries.\n")
+  file(WRITE ${CMAKE_BINARY_DIR}/generated/precompiled_tests.cpp "int main() {}\n")
+  add_library(lobe_precompiled OBJECT ${CMAKE_BINARY_DIR}/generated/precompiled_library.cpp)
+  target_link_libraries(lobe_precompiled PRIVATE lobe_compile glm::glm nlohmann_json::nlohmann_json)
+  target_precompile_headers(lobe_precompiled PRIVATE ${LOBE_COMMON_HEADERS})
+endif()
+
+function(lobe_precompile target)
+  if(LOBE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM lobe_precompiled)
+  endif()
+endfunction()
+
+# After GTest was found.
+function(lobe_make_test_headers)
+  if(LOBE_PRECOMPILED_HEADERS)
+    add_executable(lobe_precompiled_tests ${CMAKE_BINARY_DIR}/generated/precompiled_tests.cpp)
+    target_link_libraries(lobe_precompiled_tests PRIVATE lobe_compile glm::glm nlohmann_json::nlohmann_json GTest::gtest GTest::gmock)
+    target_precompile_headers(lobe_precompiled_tests PRIVATE ${LOBE_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
+endfunction()
+
+function(lobe_precompile_tests target)
+  if(LOBE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM lobe_precompiled_tests)
+  endif()
+endfunction()
