@@ -60,9 +60,8 @@ std::vector<ShadowTime> shadowTimes(gl::Context& context, const std::vector<Scen
                 for (auto& [key, drawing] : drawings)
                     drawing->draw();
             const auto each = [&](const std::string& method) {
-                return (drawings[{method, kMany}]->milliseconds() -
-                        drawings[{method, kFew}]->milliseconds()) *
-                       1e6 / ((kMany - kFew) * static_cast<double>(width) * height);
+                return (drawings[{method, kMany}]->seconds() - drawings[{method, kFew}]->seconds()) * 1e9 /
+                       ((kMany - kFew) * static_cast<double>(width) * height);
             };
             ShadowTime time{scene.name,   name,         "rays", scene.triangleCount(),
                             each("none"), each("rays"), 0.0,    0.0};

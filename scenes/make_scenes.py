@@ -623,25 +623,25 @@ def balls_of_models():
 
 def rect_light():
     g = balls_of_models()
-    g.area_light("rect", 9.0, 0.8, (-1.3, 2.4, 1.6), (0.45, -1, -0.6), aspect=2)
+    g.area_light("rect", 22.0, 0.8, (-1.3, 2.4, 1.6), (0.45, -1, -0.6), aspect=2)
     return g
 
 
 def disk_light():
     g = balls_of_models()
-    g.area_light("disk", 14.0, 1.1, (1.6, 2.4, 1.4), (-0.5, -1, -0.55))
+    g.area_light("disk", 32.0, 1.1, (1.6, 2.4, 1.4), (-0.5, -1, -0.55))
     return g
 
 
 def sphere_light():
     g = balls_of_models()
-    g.light("point", 9.0, position=(-0.9, 2.2, 1.9), shape={"shape": "sphere", "radius": 0.35})
+    g.light("point", 20.0, position=(-0.9, 2.2, 1.9), shape={"shape": "sphere", "radius": 0.35})
     return g
 
 
 def tube_light():
     g = balls_of_models()
-    g.light("point", 8.0, position=(0, 1.9, 1.9), shape={"shape": "tube", "radius": 0.05, "length": 3.0})
+    g.light("point", 18.0, position=(0, 1.9, 1.9), shape={"shape": "tube", "radius": 0.05, "length": 3.0})
     return g
 
 

@@ -161,7 +161,8 @@ const std::vector<std::string>& supportedExtensions() {
                                                  "LOBE_fog",
                                                  "LOBE_light_shape",
                                                  "LOBE_materials_brdf",
-                                                 "LOBE_shadow"};
+                                                 "LOBE_shadow",
+                                                 "LOBE_visible_light"};
     return kNames;
 }
 

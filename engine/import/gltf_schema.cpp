@@ -147,9 +147,10 @@ const ObjectSchema& mesh() {
 const ObjectSchema& node() {
     static const ObjectSchema light{{required("light", integer(0))}};
     static const ObjectSchema shadow{{optional("cast", boolean())}};
-    static const ObjectSchema extensions{{optional(kLightsExtension, objectOf(light)),
-                                          optional(kAreaLightsExtension, objectOf(light)),
-                                          optional(kShadowExtension, objectOf(shadow))}};
+    static const ObjectSchema visible{{optional("visible", boolean())}};
+    static const ObjectSchema extensions{
+        {optional(kLightsExtension, objectOf(light)), optional(kAreaLightsExtension, objectOf(light)),
+         optional(kShadowExtension, objectOf(shadow)), optional(kVisibleLightExtension, objectOf(visible))}};
     static const ObjectSchema schema{
         {optional("name", text()), optional("camera", indexOf("cameras")),
          optional("children", arrayOf(indexOf("nodes"))), optional("skin", indexOf("skins")),

@@ -14,5 +14,7 @@ inline constexpr const char* kAreaLightsExtension = "EXT_lights_area";
 inline constexpr const char* kLightShapeExtension = "LOBE_light_shape";
 /// On a node: whether its light and its mesh cast shadows.
 inline constexpr const char* kShadowExtension = "LOBE_shadow";
+/// On a node: whether its light, which has a body, is seen.
+inline constexpr const char* kVisibleLightExtension = "LOBE_visible_light";
 
 }  // namespace lobe

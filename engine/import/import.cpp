@@ -7,6 +7,7 @@
 #include "import/accessors.hpp"
 #include "import/animation.hpp"
 #include "import/cameras.hpp"
+#include "import/light_bodies.hpp"
 #include "import/lights.hpp"
 #include "import/materials.hpp"
 #include "import/normals.hpp"
@@ -55,7 +56,7 @@ public:
             addNode(static_cast<size_t>(node));
         }
         addImages();
-        scene.lights = readLights(document_, tree_, world_);
+        addLights();
         scene.cameras = readCameras(document_, tree_, world_);
         warnOfRepairs();
         placeTables(scene.materials);
@@ -244,6 +245,15 @@ private:
                            [&](const glm::vec2& uv) { return transformed(uv, material.normalTexture); });
         }
         makeTangents(primitive, uvs);
+    }
+
+    void addLights() {
+        for (PlacedLight& placed : readLights(document_, tree_, world_)) {
+            if (placed.visible) {
+                addBody(result_.scene, placed.light);
+            }
+            result_.scene.lights.push_back(std::move(placed.light));
+        }
     }
 
     /// Materials have indices into the file's textures until here; only those that are drawn are read.

@@ -121,10 +121,24 @@ std::optional<size_t> lightOf(const Document& document, size_t node, const char*
     return which.get<size_t>();
 }
 
+/// LOBE_visible_light, on the node of the light.
+bool isToBeSeen(const Document& document, size_t node, const Light& light) {
+    const json* extension = document.extension("nodes", node, kVisibleLightExtension);
+    if (extension == nullptr || !extension->value("visible", true)) {
+        return false;
+    }
+    if (isPunctual(light.type)) {
+        refuse(document.file, at("nodes", node, std::string("extensions.") + kVisibleLightExtension),
+               "on a light without a body",
+               "a light of EXT_lights_area, or with " + std::string(kLightShapeExtension));
+    }
+    return true;
+}
+
 }  // namespace
 
-std::vector<Light> readLights(const Document& document, const NodeTree& tree, const WorldPose& world) {
-    std::vector<Light> lights;
+std::vector<PlacedLight> readLights(const Document& document, const NodeTree& tree, const WorldPose& world) {
+    std::vector<PlacedLight> lights;
     for (const int node : tree.drawn) {
         const auto index = static_cast<size_t>(node);
         const auto place = [&](Light light) {
@@ -133,7 +147,8 @@ std::vector<Light> readLights(const Document& document, const NodeTree& tree, co
             light.direction = glm::normalize(rotation * glm::dvec3(0.0, 0.0, -1.0));
             light.castsShadow = castsShadow(document, index);
             light.axis = glm::normalize(rotation * glm::dvec3(1.0, 0.0, 0.0));
-            lights.push_back(std::move(light));
+            const bool visible = isToBeSeen(document, index, light);
+            lights.push_back({std::move(light), visible});
         };
         if (const auto light = lightOf(document, index, kLightsExtension)) {
             place(readPunctualLight(document, *light));

@@ -44,7 +44,8 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
     glViewport(0, 0, width, height);
     std::map<std::string, double> result;
     for (const PlannedPass& pass : plan.passes) {
-        if (pass.name == "accumulate" || pass.name == "aov" || pass.name == "forward") continue;
+        if (pass.name == "accumulate" || pass.name == "aov" || pass.name == "forward" || pass.name == "peel")
+            continue;
         const bool geometry = pass.name == "gbuffer";
         std::vector<std::string> colors = pass.writes;
         std::erase(colors, "depth");

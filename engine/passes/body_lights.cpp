@@ -1,5 +1,7 @@
 #include "passes/body_lights.hpp"
 
+#include <algorithm>
+
 #include "shading/punctual.hpp"
 
 namespace lobe {
@@ -15,6 +17,17 @@ void push(std::vector<float>& data, const glm::dvec3& xyz, double w) {
     for (int i = 0; i < 3; ++i)
         data.push_back(static_cast<float>(xyz[i]));
     data.push_back(static_cast<float>(w));
+}
+
+/// A body of less than this is drawn as large as this, with its radiant intensity kept: smaller ones would
+/// have a radiance beyond float, and look the same.
+constexpr double kSmallestRadius = 1e-12;
+
+Light drawn(const Light& light) {
+    Light result = light;
+    if (light.type == LightType::sphere || light.type == LightType::tube)
+        result.radius = std::max(light.radius, kSmallestRadius);
+    return result;
 }
 
 /// Half width and half height; radius; half length and radius.
@@ -44,12 +57,13 @@ void BodyLights::update(const View& view, int frame) {
         if (lights_[i].empty()) continue;
         std::vector<float> data;
         int casting = 0;
-        for (const Light* light : lights_[i]) {
-            const auto [a, b] = sizesOf(*light);
-            push(data, light->position - view.eye, inverseRange2(light->range));
-            push(data, radianceOf(*light), shadows_[i] && light->castsShadow ? casting++ : -1);
-            push(data, light->axis, a);
-            push(data, light->direction, b);
+        for (const Light* kept : lights_[i]) {
+            const Light light = drawn(*kept);
+            const auto [a, b] = sizesOf(light);
+            push(data, light.position - view.eye, inverseRange2(light.range));
+            push(data, radianceOf(light), shadows_[i] && light.castsShadow ? casting++ : -1);
+            push(data, light.axis, a);
+            push(data, light.direction, b);
         }
         buffers_[i] = gl::makeTextureBuffer(GL_RGBA32F, data.data(), data.size() * sizeof(float));
     }

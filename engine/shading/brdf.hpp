@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "shading/area_model.hpp"
 #include "shading/sampling_lobe.hpp"
 
 namespace lobe {
@@ -151,6 +152,9 @@ struct Brdf {
 
     /// Lobes from which to draw wi for this wo (sampling.hpp). Absent: found from fCos.
     std::function<SamplingLobes(const glm::dvec3& wo, std::span<const double>)> samplingLobes;
+
+    /// How lights with a body are integrated without samples. Absent: they are sampled.
+    std::optional<AreaModel> area;
 
     /// Values that imitate a metallic-roughness surface, for `--brdf NAME` on a whole scene.
     std::function<ParameterValues(const MetallicRoughness&)> fromMetallicRoughness;

@@ -5,6 +5,13 @@
 #include <limits>
 
 namespace lobe::shading {
+namespace {
+
+bool isSchlick(std::span<const double> values) {
+    return values[values.size() - kFresnelValues] == static_cast<double>(FresnelType::schlick);
+}
+
+}  // namespace
 
 std::vector<Parameter> microfacetParameters(std::vector<Parameter> lobe) {
     std::vector<Parameter> parameters{colorParameter("diffuse", glm::dvec3(0.0), "k_d: diffuse reflectance"),
@@ -40,6 +47,25 @@ glm::dvec3 microfacetPeak(std::span<const double> values, double lobe) {
 SamplingLobes microfacetLobes(const glm::dvec3& wo, std::span<const double> values, SamplingLobe lobe) {
     lobe.weight = meanOf(rgbAt(values, 3) * fresnelReflectance(values.last(kFresnelValues), wo.z));
     return baseAndLobe(meanOf(rgbAt(values, 0)), lobe);
+}
+
+AreaModel microfacetArea(std::function<double(const Directions&, std::span<const double>)> lobe) {
+    AreaModel area;
+    area.terms = 2;
+    area.colors = {"diffuse", "specular", "f0"};
+    area.weights = [](std::span<const double> values) {
+        const glm::dvec3 specular = rgbAt(values, 3);
+        if (!isSchlick(values)) return AreaWeights{rgbAt(values, 0), {specular, glm::dvec3(0.0)}};
+        return AreaWeights{rgbAt(values, 0), {specular * rgbAt(values, values.size() - 9), specular}};
+    };
+    area.parts = [lobe = std::move(lobe)](const Directions& d, std::span<const double> values) {
+        const double value = lobe(d, values) * d.wi.z;
+        if (!isSchlick(values))
+            return AreaTerms{1.0, {fresnelReflectance(values.last(kFresnelValues), d) * value, glm::dvec3(0.0)}};
+        const double schlick = std::pow(oneMinusCosThetaD(d), 5.0);
+        return AreaTerms{1.0, {glm::dvec3((1.0 - schlick) * value), glm::dvec3(schlick * value)}};
+    };
+    return area;
 }
 
 ParameterValues microfacetFromMetallicRoughness(const MetallicRoughness& surface,

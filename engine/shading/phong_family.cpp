@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 namespace lobe::shading {
 namespace {
@@ -27,6 +28,21 @@ PhongValues phongValues(std::span<const double> values) {
 
 glm::dvec3 phongAmbient(std::span<const double> values) {
     return rgbAt(values, 0);
+}
+
+AreaModel phongArea(std::function<double(const Directions&, const PhongValues&)> lobe) {
+    AreaModel area;
+    area.colors = {"ambient", "diffuse", "specular"};
+    area.width = "shininess";
+    area.widths = {0.1, kMaxShininess};
+    area.weights = [](std::span<const double> values) {
+        const PhongValues p = phongValues(values);
+        return AreaWeights{p.diffuse * (p.energy ? 1.0 : glm::pi<double>()), {p.specular, glm::dvec3(0.0)}};
+    };
+    area.parts = [lobe = std::move(lobe)](const Directions& d, std::span<const double> values) {
+        return AreaTerms{1.0, {glm::dvec3(lobe(d, phongValues(values))), glm::dvec3(0.0)}};
+    };
+    return area;
 }
 
 ParameterValues phongFromMetallicRoughness(const MetallicRoughness& surface, double shininess) {

@@ -15,6 +15,9 @@ std::vector<Parameter> phongParameters();
 PhongValues phongValues(std::span<const double> values);
 glm::dvec3 phongAmbient(std::span<const double> values);
 
+/// Lambert's part k_d, or pi k_d in the classic form; `lobe` is f cos(theta_i) / k_s without it.
+AreaModel phongArea(std::function<double(const Directions&, const PhongValues&)> lobe);
+
 /// k_d = 0.96 (1 - metallic) baseColor and k_s = mix(0.04, baseColor, metallic), so that k_d + k_s <= 1; k_a
 /// is the base colour; normalization "energy"; `shininess` is clamped to its range.
 ParameterValues phongFromMetallicRoughness(const MetallicRoughness& surface, double shininess);

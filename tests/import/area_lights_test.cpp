@@ -46,6 +46,47 @@ TEST(AreaLights, Defaults) {
     EXPECT_EQ(light.axis, glm::dvec3(1, 0, 0));
 }
 
+TEST(AreaLights, AreSeenOnRequest) {
+    const json seen = {{"extensions", {{"LOBE_visible_light", json::object()}}}, {"translation", {1, 2, 3}}};
+    EXPECT_EQ(withArea({{"type", "rect"}}).import().scene.instances.size(), 1U);
+    for (const char* type : {"rect", "disk"}) {
+        const Imported imported =
+            withArea({{"type", type}, {"size", 0.5}, {"intensity", 7}, {"color", {1, 0.5, 0}}}, seen)
+                .import();
+        EXPECT_THAT(imported.scene.warnings, IsEmpty());
+        ASSERT_EQ(imported.scene.instances.size(), 2U);
+        const Instance& instance = imported.scene.instances[1];
+        EXPECT_FALSE(instance.castsShadow);
+        const Primitive& body = imported.scene.primitives[static_cast<size_t>(instance.primitive)];
+        const Material& material = imported.scene.materials[static_cast<size_t>(body.material)];
+        EXPECT_EQ(material.brdf, "unlit");
+        EXPECT_EQ(material.metallicRoughness.baseColor, glm::dvec3(7, 3.5, 0));
+        // The area, and the side that the light leaves from.
+        glm::dvec3 area(0.0);
+        for (size_t i = 0; i < body.indices.size(); i += 3) {
+            const auto at = [&](size_t k) {
+                return glm::dvec3(instance.worldFromLocal *
+                                  glm::dvec4(body.positions[body.indices[i + k]], 1.0));
+            };
+            area += glm::cross(at(1) - at(0), at(2) - at(0)) / 2.0;
+        }
+        const double expected = type == std::string("rect") ? 0.25 : 0.0625 * std::numbers::pi;
+        EXPECT_NEAR(glm::dot(area, imported.scene.lights[0].direction), expected, 1e-3 * expected) << type;
+    }
+    Gltf tube = withShape({{"shape", "tube"}, {"radius", 0.1}, {"length", 2.0}});
+    tube.doc["nodes"].back()["extensions"]["LOBE_visible_light"] = json::object();
+    const Imported imported = tube.import();
+    Bounds bounds;
+    for (const glm::vec3& p : imported.scene.primitives.back().positions)
+        bounds.add(glm::dvec3(p));
+    EXPECT_NEAR(bounds.upper.x, 1.1, 1e-6);
+    EXPECT_NEAR(bounds.lower.x, -1.1, 1e-6);
+    EXPECT_NEAR(bounds.upper.z, 0.1, 1e-6);
+
+    Gltf point = withLight("KHR_lights_punctual", {{"type", "point"}}, seen);
+    EXPECT_THAT(point.refusal(), HasSubstr("LOBE_visible_light: on a light without a body"));
+}
+
 TEST(AreaLights, SizeIsScaledByTheLargestComponent) {
     const json node = {{"translation", {1, 2, 3}}, {"scale", {2, -3, 1}}, {"rotation", {0, 0, kHalf, kHalf}}};
     const Imported rect = withArea({{"type", "rect"},

@@ -146,11 +146,6 @@ Quality exact() {
     return quality;
 }
 
-struct Type {
-    LightType type;
-    const char* name;
-};
-
 class BodyPicture : public testing::TestWithParam<std::tuple<LightType, const char*>> {
 protected:
     Scene scene() const {
@@ -180,15 +175,16 @@ TEST_P(BodyPicture, UnshadowedAgreesWithTheReference) {
         print((name() + " " + std::to_string(points) + " points").c_str(), sampled);
         EXPECT_FALSE(sampled.bad);
         if (points == 256) {
-            EXPECT_LT(sampled.mean, 0.01);
-            EXPECT_LT(sampled.rms, 0.6 * before + 1e-3);
-            EXPECT_LT(std::abs(sampled.missing), 2e-3);
+            EXPECT_LT(sampled.mean, 2e-4);
+            // 1/16^2 for smooth integrands; the horizon and the edges of balls are not.
+            EXPECT_LT(sampled.rms, 0.1 * before);
+            EXPECT_LT(std::abs(sampled.missing), 1e-4);
         }
         before = sampled.rms;
     }
     if (std::string(std::get<1>(GetParam())) == "lambert") {
-        EXPECT_LT(closed.mean, 5e-4);
-        EXPECT_LT(closed.largest, 5e-3);
+        EXPECT_LT(closed.mean, 2e-5);
+        EXPECT_LT(closed.largest, 1e-3);
     }
 }
 
@@ -197,15 +193,19 @@ TEST_P(BodyPicture, ShadowedAgreesWithTheReference) {
     const auto truths = truth(made, true, 5e-3);
     Quality quality = exact();
     quality.shadows = Shadows::soft;
+    double before = 0.0;
     for (int points : {4, 64}) {
         quality.lightSamples = points;
         const Error error = compare(drawn(made, quality), truths);
         print((name() + " shadowed " + std::to_string(points)).c_str(), error);
         EXPECT_FALSE(error.bad);
         if (points == 64) {
-            EXPECT_LT(error.mean, 0.02);
-            EXPECT_LT(std::abs(error.missing), 4e-3);
+            EXPECT_LT(error.mean, 4e-3);
+            // 16^(-3/4) = 1/8 where an edge crosses the light; the reference errs by 5e-3 itself.
+            EXPECT_LT(error.rms, 0.35 * before);
+            EXPECT_LT(std::abs(error.missing), 5e-4);
         }
+        before = error.rms;
     }
 }
 
@@ -234,7 +234,7 @@ TEST(BodyPictures, AMirrorShowsTheBodies) {
         const Error error = compare(drawn(made, quality), truths);
         print(shadows ? "mirror, shadowed" : "mirror", error);
         EXPECT_FALSE(error.bad);
-        EXPECT_LT(error.mean, 0.03);
+        EXPECT_LT(error.mean, 3e-3);
         const Image parts = drawn(made, quality, {Aov::radiance, Aov::materialId, Aov::contributions});
         double largest = 0.0;
         for (int y = 0; y < kHeight; ++y)

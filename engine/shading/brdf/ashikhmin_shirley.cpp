@@ -46,6 +46,27 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     return (base + fresnel * lobe(d, p)) * d.wi.z;
 }
 
+AreaModel area() {
+    AreaModel area;
+    area.terms = 2;
+    area.baseVaries = true;
+    area.colors = {"diffuse", "specular"};
+    area.weights = [](std::span<const double> values) {
+        const Values p = valuesOf(values);
+        return AreaWeights{p.diffuse * (1.0 - p.specular), {p.specular, glm::dvec3(1.0)}};
+    };
+    area.parts = [](const Directions& d, std::span<const double> values) {
+        const double schlick = std::pow(shading::oneMinusCosThetaD(d), 5.0);
+        const double value = lobe(d, valuesOf(values)) * d.wi.z;
+        return AreaTerms{28.0 / 23.0 * throughCoat(d.wi.z) * throughCoat(d.wo.z),
+                         {glm::dvec3((1.0 - schlick) * value), glm::dvec3(schlick * value)}};
+    };
+    area.refuses = [](std::span<const double> values) {
+        return values[6] == values[7] ? "" : "its lobe has two widths";
+    };
+    return area;
+}
+
 }  // namespace
 
 Brdf ashikhmin_shirley() {
@@ -65,6 +86,7 @@ Brdf ashikhmin_shirley() {
     brdf.traits.usesTangent = true;
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
+    brdf.area = area();
     brdf.ambient = [](std::span<const double> values) {
         const Values p = valuesOf(values);
         return p.diffuse * (1.0 - p.specular) + p.specular;

@@ -55,6 +55,10 @@ Brdf beckmann_smith() {
         return microfacetFactors(d, values, beckmann(glm::normalize(d.h), values[6]),
                                  masking(d, values[6], values[7] == 1.0));
     };
+    brdf.area = microfacetArea([](const Directions& d, std::span<const double> values) {
+        return lobe(d, values[6], values[7] == 1.0);
+    });
+    brdf.area->width = "m";
     brdf.ambient = microfacetAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / values[6] : 0.0;

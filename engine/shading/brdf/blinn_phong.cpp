@@ -12,14 +12,18 @@ double energyConstant(double n) {
     return (n + 2.0) * (n + 4.0) / (8.0 * glm::pi<double>() * (std::exp2(-n / 2.0) + n));
 }
 
+/// (N.H)^n with what is beside k_s, and cos(theta_i) in the form "energy".
+double lobe(const Directions& d, const shading::PhongValues& p) {
+    const glm::dvec3 h = glm::normalize(d.h);
+    const double power = shading::cosinePower(h.z, std::hypot(h.x, h.y), p.shininess);
+    return p.energy ? energyConstant(p.shininess) * power * d.wi.z : power;
+}
+
 glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     using namespace shading;
     if (!aboveSurface(d)) return glm::dvec3(0.0);
     const PhongValues p = phongValues(values);
-    const glm::dvec3 h = glm::normalize(d.h);
-    const double lobe = cosinePower(h.z, std::hypot(h.x, h.y), p.shininess);
-    if (!p.energy) return p.diffuse * d.wi.z + p.specular * lobe;
-    return (p.diffuse / glm::pi<double>() + p.specular * (energyConstant(p.shininess) * lobe)) * d.wi.z;
+    return p.diffuse * (p.energy ? d.wi.z / glm::pi<double>() : d.wi.z) + p.specular * lobe(d, p);
 }
 
 /// Half vectors with density cos^(n + 1).
@@ -55,6 +59,7 @@ Brdf blinn_phong() {
                         : p.diffuse + p.specular;
     };
     brdf.samplingLobes = lobes;
+    brdf.area = phongArea(lobe);
     brdf.ambient = phongAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         const PhongValues p = phongValues(values);

@@ -43,6 +43,9 @@ Brdf cook_torrance() {
     brdf.factors = [](const Directions& d, std::span<const double> values) {
         return microfacetFactors(d, values, beckmann(glm::normalize(d.h), values[6]), masking(d));
     };
+    brdf.area = microfacetArea(
+        [](const Directions& d, std::span<const double> values) { return lobe(d, values[6]); });
+    brdf.area->width = "m";
     brdf.ambient = microfacetAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / values[6] : 0.0;

@@ -71,6 +71,13 @@ Brdf ggx() {
         const Widths a{values[6], values[7], values[8]};
         return microfacetFactors(d, values, distribution(d, a), masking(d, a));
     };
+    brdf.area = microfacetArea([](const Directions& d, std::span<const double> values) {
+        return lobe(d, {values[6], values[7], values[8]});
+    });
+    brdf.area->powerTail = true;
+    brdf.area->refuses = [](std::span<const double> values) {
+        return values[6] == values[7] ? "" : "its lobe has two widths";
+    };
     brdf.ambient = microfacetAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         return hasSpecular(values) ? 2.0 / std::min(values[6], values[7]) : 0.0;

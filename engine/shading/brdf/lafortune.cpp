@@ -63,9 +63,8 @@ TableRows rowsOfColumns(std::span<const double> columns) {
     return rowsOf(lobes);
 }
 
-glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
-    if (!shading::aboveSurface(d)) return glm::dvec3(0.0);
-    glm::dvec3 f = rgbAt(values, 0) / glm::pi<double>();
+glm::dvec3 lobes(const Directions& d, std::span<const double> values) {
+    glm::dvec3 f(0.0);
     const std::span<const double> table = values.subspan(4);
     const auto count = static_cast<size_t>(table[0]);
     for (size_t i = 0; i < count; ++i) {
@@ -76,7 +75,29 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
             f[static_cast<int>(c)] += std::pow(std::max(s, 0.0), table[first + 12 + c]);
         }
     }
-    return f * d.wi.z;
+    return f;
+}
+
+glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
+    if (!shading::aboveSurface(d)) return glm::dvec3(0.0);
+    return (rgbAt(values, 0) / glm::pi<double>() + lobes(d, values)) * d.wi.z;
+}
+
+AreaModel area() {
+    AreaModel area;
+    area.colors = {"diffuse"};
+    area.weights = [](std::span<const double> values) {
+        return AreaWeights{rgbAt(values, 0), {glm::dvec3(1.0), glm::dvec3(0.0)}};
+    };
+    area.parts = [](const Directions& d, std::span<const double> values) {
+        return AreaTerms{1.0, {lobes(d, values) * d.wi.z, glm::dvec3(0.0)}};
+    };
+    area.refuses = [](std::span<const double> values) {
+        for (const LafortuneLobe& lobe : lobesOf(values.subspan(4)))
+            if (lobe.cx != lobe.cy) return "its lobes have two widths";
+        return "";
+    };
+    return area;
 }
 
 /// Of each lobe: the largest coefficient to its power, as the sum of |wi_k wo_k| is at most 1.
@@ -173,6 +194,7 @@ Brdf lafortune() {
     brdf.baseColorParameter = "diffuse";
     brdf.fCos = fCos;
     brdf.peak = peak;
+    brdf.area = area();
     brdf.samplingLobes = samplingLobes;
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = sharpness;

@@ -17,6 +17,12 @@ Brdf lambert() {
         if (!aboveSurface(d)) return glm::dvec3(0.0);
         return rgbAt(values, 0) / glm::pi<double>() * d.wi.z;
     };
+    AreaModel area;
+    area.terms = 0;
+    area.colors = {"diffuse"};
+    area.weights = [](std::span<const double> values) { return AreaWeights{rgbAt(values, 0), {}}; };
+    area.parts = [](const Directions&, std::span<const double>) { return AreaTerms{}; };
+    brdf.area = std::move(area);
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
     brdf.peak = [](std::span<const double> values) { return rgbAt(values, 0) / glm::pi<double>(); };

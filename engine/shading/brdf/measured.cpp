@@ -150,6 +150,15 @@ Brdf measured() {
             largest = glm::max(largest, rgbAt(table, 4 * row));
         return rgbAt(values, 0) * largest;
     };
+    AreaModel area;
+    area.colors = {"scale"};
+    area.weights = [](std::span<const double> values) {
+        return AreaWeights{glm::dvec3(0.0), {rgbAt(values, 0), glm::dvec3(0.0)}};
+    };
+    area.parts = [](const Directions& d, std::span<const double> values) {
+        return AreaTerms{1.0, {interpolated(values.subspan(kTableAt), anglesOf(d)) * d.wi.z, glm::dvec3(0.0)}};
+    };
+    brdf.area = std::move(area);
     brdf.ambient = [](std::span<const double> values) {
         return rgbAt(values, 0) * rgbAt(values, kTableAt + 4);
     };

@@ -53,6 +53,29 @@ glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     return (diffuse + specular) * d.wi.z;
 }
 
+/// F = f0 + (1 - f0) S weighs the lobe; what it leaves, (1 - f0) (1 - S), the base.
+AreaModel area() {
+    AreaModel area;
+    area.powerTail = true;
+    area.terms = 2;
+    area.baseVaries = true;
+    area.colors = {"baseColor", "metallic"};
+    area.width = "roughness";
+    area.widths = {std::sqrt(kMinAlpha), 1.0};
+    area.weights = [](std::span<const double> values) {
+        const glm::dvec3 baseColor = shading::rgbAt(values, 0);
+        const glm::dvec3 f0 = glm::mix(glm::dvec3(shading::kDielectricF0), baseColor, values[3]);
+        return AreaWeights{(1.0 - f0) * baseColor * (1.0 - values[3]), {f0, glm::dvec3(1.0)}};
+    };
+    area.parts = [](const Directions& d, std::span<const double> values) {
+        const double alpha = alphaOf(values[4]);
+        const double schlick = std::pow(shading::oneMinusCosThetaD(d), 5.0);
+        const double lobe = masking(d, alpha) * ggx(glm::normalize(d.h), alpha) / (4.0 * d.wo.z);
+        return AreaTerms{1.0 - schlick, {glm::dvec3((1.0 - schlick) * lobe), glm::dvec3(schlick * lobe)}};
+    };
+    return area;
+}
+
 std::vector<BrdfFactor> factors(const Directions& d, std::span<const double> values) {
     const double alpha = alphaOf(values[4]);
     return {{"D", glm::dvec3(ggx(glm::normalize(d.h), alpha))},
@@ -82,6 +105,7 @@ Brdf metallic_roughness() {
     brdf.baseColorParameter = "baseColor";
     brdf.fCos = fCos;
     brdf.factors = factors;
+    brdf.area = area();
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double> values) { return 2.0 / alphaOf(values[4]); };
     // As of ggx, with F at most 1.

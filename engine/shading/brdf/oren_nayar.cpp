@@ -80,6 +80,17 @@ glm::dvec3 ofTerms(const Directions& d, std::span<const double> values, double (
     return f;
 }
 
+/// rho times what does not depend on it, and rho^2 times the light between facets.
+AreaTerms areaParts(const Directions& d, std::span<const double> values) {
+    const double s2 = values[3] * values[3];
+    const Angles angles(d);
+    const bool isFull = values[4] == 0.0;
+    const Terms terms = isFull ? full(angles, s2, 1.0) : qualitative(angles, s2);
+    const double direct = std::max(terms.constant + terms.facing + terms.across, 0.0);
+    return {1.0,
+            {glm::dvec3(direct / kPi * d.wi.z), glm::dvec3(std::max(terms.between, 0.0) / kPi * d.wi.z)}};
+}
+
 }  // namespace
 
 Brdf oren_nayar() {
@@ -105,6 +116,15 @@ Brdf oren_nayar() {
     brdf.termSizes = [](const Directions& d, std::span<const double> values) {
         return ofTerms(d, values, &Terms::size);
     };
+    AreaModel area;
+    area.terms = 2;
+    area.colors = {"diffuse"};
+    area.weights = [](std::span<const double> values) {
+        const glm::dvec3 rho = rgbAt(values, 0);
+        return AreaWeights{glm::dvec3(0.0), {rho, rho * rho}};
+    };
+    area.parts = areaParts;
+    brdf.area = std::move(area);
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0); };
     brdf.lobeSharpness = [](std::span<const double>) { return 0.0; };
     // Of the terms times cos(theta_i): tan(beta) cos(theta_i) <= 1 and tan((alpha + beta) / 2) cos(theta_i)

@@ -8,17 +8,20 @@
 namespace lobe::brdf_entry {
 namespace {
 
+/// (R.V)^n with what is beside k_s, and cos(theta_i) in the form "energy".
+double lobe(const Directions& d, const shading::PhongValues& p) {
+    const glm::dvec3 normal(0.0, 0.0, 1.0);
+    const glm::dvec3 mirrored = 2.0 * d.wi.z * normal - d.wi;
+    const double power = shading::cosinePower(glm::dot(mirrored, d.wo),
+                                              glm::length(glm::cross(mirrored, d.wo)), p.shininess);
+    return p.energy ? (p.shininess + 2.0) / (2.0 * glm::pi<double>()) * power * d.wi.z : power;
+}
+
 glm::dvec3 fCos(const Directions& d, std::span<const double> values) {
     using namespace shading;
     if (!aboveSurface(d)) return glm::dvec3(0.0);
     const PhongValues p = phongValues(values);
-    const double pi = glm::pi<double>();
-    const glm::dvec3 normal(0.0, 0.0, 1.0);
-    const glm::dvec3 mirrored = 2.0 * d.wi.z * normal - d.wi;
-    const double lobe =
-        cosinePower(glm::dot(mirrored, d.wo), glm::length(glm::cross(mirrored, d.wo)), p.shininess);
-    if (!p.energy) return p.diffuse * d.wi.z + p.specular * lobe;
-    return (p.diffuse / pi + p.specular * ((p.shininess + 2.0) / (2.0 * pi) * lobe)) * d.wi.z;
+    return p.diffuse * (p.energy ? d.wi.z / glm::pi<double>() : d.wi.z) + p.specular * lobe(d, p);
 }
 
 /// As cos^n about the mirrored direction.
@@ -57,6 +60,7 @@ Brdf phong() {
                         : p.diffuse + p.specular;
     };
     brdf.samplingLobes = lobes;
+    brdf.area = phongArea(lobe);
     brdf.ambient = phongAmbient;
     brdf.lobeSharpness = [](std::span<const double> values) {
         const PhongValues p = phongValues(values);

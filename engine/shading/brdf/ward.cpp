@@ -39,6 +39,16 @@ Brdf ward() {
     brdf.fCos = [](const Directions& d, std::span<const double> values) {
         return wardFCos(d, values, lobeOf(values));
     };
+    AreaModel area;
+    area.colors = {"diffuse", "specular"};
+    area.width = "alpha";
+    area.weights = [](std::span<const double> values) {
+        return AreaWeights{rgbAt(values, 0), {rgbAt(values, 3), glm::dvec3(0.0)}};
+    };
+    area.parts = [](const Directions& d, std::span<const double> values) {
+        return AreaTerms{1.0, {glm::dvec3(wardLobe(d, lobeOf(values)) * d.wi.z), glm::dvec3(0.0)}};
+    };
+    brdf.area = std::move(area);
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0) + rgbAt(values, 3); };
     brdf.lobeSharpness = [](std::span<const double> values) {
         return rgbAt(values, 3) == glm::dvec3(0.0) ? 0.0 : 2.0 / values[6];

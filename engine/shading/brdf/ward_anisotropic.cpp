@@ -49,6 +49,18 @@ Brdf ward_anisotropic() {
     brdf.fCos = [](const Directions& d, std::span<const double> values) {
         return wardFCos(d, values, lobeOf(values));
     };
+    AreaModel area;
+    area.colors = {"diffuse", "specular"};
+    area.weights = [](std::span<const double> values) {
+        return AreaWeights{rgbAt(values, 0), {rgbAt(values, 3), glm::dvec3(0.0)}};
+    };
+    area.parts = [](const Directions& d, std::span<const double> values) {
+        return AreaTerms{1.0, {glm::dvec3(wardLobe(d, lobeOf(values)) * d.wi.z), glm::dvec3(0.0)}};
+    };
+    area.refuses = [](std::span<const double> values) {
+        return values[6] == values[7] ? "" : "its lobe has two widths";
+    };
+    brdf.area = std::move(area);
     brdf.ambient = [](std::span<const double> values) { return rgbAt(values, 0) + rgbAt(values, 3); };
     brdf.lobeSharpness = [](std::span<const double> values) {
         return rgbAt(values, 3) == glm::dvec3(0.0) ? 0.0 : 2.0 / std::min(values[6], values[7]);

@@ -16,6 +16,7 @@
 ///        1 - (1 - c / 2)^5 = c / 2 (1 + u + u^2 + u^3 + u^4), u = 1 - c / 2
 /// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/ashikhmin_shirley.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"
 #include "common/half.glsl"
@@ -56,4 +57,10 @@ vec3 ashikhmin_shirley_ambient(AshikhminShirleyParams p) { return p.diffuse * (1
 float ashikhmin_shirley_roughness(AshikhminShirleyParams p)
 {
     return sqrt(sqrt(2.0 / (1.0 + sqrt((p.nu + 1.0) * (p.nv + 1.0)))));
+}
+
+/// For lights with a body: the base, and the terms of F = R_s (1 - S) + S.
+AreaWeights ashikhmin_shirley_area(AshikhminShirleyParams p)
+{
+    return AreaWeights(p.diffuse * (1.0 - p.specular), p.specular, vec3(1.0));
 }

@@ -17,6 +17,7 @@
 /// stable cos(theta) Lambda has no division by cos(theta); tan(theta_h) = |h.xy| / h.z
 /// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/beckmann_smith.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"
 #include "common/half.glsl"
@@ -59,3 +60,6 @@ vec3 beckmann_smith_ambient(BeckmannSmithParams p)
 
 /// Roughness r of the lobe of like width: r^2 = m.
 float beckmann_smith_roughness(BeckmannSmithParams p) { return sqrt(min(p.m, 1.0)); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights beckmann_smith_area(BeckmannSmithParams p) { return area_microfacet(p.diffuse, p.specular, p.fresnel, p.f0); }

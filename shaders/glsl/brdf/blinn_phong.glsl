@@ -16,6 +16,7 @@
 /// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
 ///        Where both cosines > 0.01 and f > 1e-6: < 5.3e-6 for n < 900, 2.3e-4 for n < 9e4, 2.1e-3
 /// twin   engine/shading/brdf/blinn_phong.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 #include "common/numeric.glsl"
@@ -44,3 +45,9 @@ vec3 blinn_phong_ambient(BlinnPhongParams p) { return p.ambient; }
 
 /// Roughness r of the lobe of like width: r^4 = alpha^2 = 2 / (n + 2).
 float blinn_phong_roughness(BlinnPhongParams p) { return sqrt(sqrt(2.0 / (p.shininess + 2.0))); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights blinn_phong_area(BlinnPhongParams p)
+{
+    return AreaWeights(p.diffuse * (p.normalization == 1 ? 1.0 : PI), p.specular, vec3(0.0));
+}

@@ -16,6 +16,7 @@
 ///        tan(theta_h) = |h.xy| / h.z
 /// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/cook_torrance.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"
 #include "common/half.glsl"
@@ -55,3 +56,6 @@ vec3 cook_torrance_ambient(CookTorranceParams p)
 
 /// Roughness r of the lobe of like width: r^2 = m.
 float cook_torrance_roughness(CookTorranceParams p) { return sqrt(min(p.m, 1.0)); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights cook_torrance_area(CookTorranceParams p) { return area_microfacet(p.diffuse, p.specular, p.fresnel, p.f0); }

@@ -17,6 +17,7 @@
 /// stable sums of squares of the unnormalised half vector; masking by lengths of stretched vectors, without tangents
 /// error  relative, at most 4 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/ggx.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/fresnel.glsl"
 #include "common/half.glsl"
@@ -55,3 +56,6 @@ vec3 ggx_ambient(GgxParams p) { return p.diffuse + p.specular * fresnel_normal_r
 
 /// Roughness r of the isotropic lobe of as large a peak: r^2 = sqrt(ax ay).
 float ggx_roughness(GgxParams p) { return sqrt(sqrt(p.alpha_x * p.alpha_y)); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights ggx_area(GgxParams p) { return area_microfacet(p.diffuse, p.specular, p.fresnel, p.f0); }

@@ -12,6 +12,7 @@
 /// stable the power as exp(n ln s), whose error is n times that of the sum s; nothing is raised to a power at s <= 0
 /// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/lafortune.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 #include "common/numeric.glsl"
@@ -49,3 +50,6 @@ float lafortune_roughness(LafortuneParams p)
     }
     return sqrt(sqrt(1.0 / (2.0 * n + 1.0)));
 }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights lafortune_area(LafortuneParams p) { return AreaWeights(p.diffuse, vec3(1.0), vec3(0.0)); }

@@ -8,6 +8,7 @@
 /// stable one product
 /// error  relative, at most 1 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md): < 2.4e-7
 /// twin   engine/shading/brdf/lambert.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 
@@ -20,3 +21,6 @@ vec3 lambert_f_cos(Dirs d, LambertParams p)
 
 vec3 lambert_ambient(LambertParams p) { return p.diffuse; }
 float lambert_roughness(LambertParams p) { return 1.0; }
+
+/// For lights with a body.
+AreaWeights lambert_area(LambertParams p) { return AreaWeights(p.diffuse, vec3(0.0), vec3(0.0)); }

@@ -11,6 +11,7 @@
 /// stable all angles from ratios of lengths, never acos, which would be off by a cell and more where highlights are
 /// error  relative, at most 8 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/measured.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 #include "common/numeric.glsl"
@@ -63,3 +64,6 @@ vec3 measured_f_cos(Dirs d, MeasuredParams p)
 
 vec3 measured_ambient(MeasuredParams p) { return p.scale * table_row(p.file + 1).xyz; }
 float measured_roughness(MeasuredParams p) { return 0.5; }
+
+/// For lights with a body: the table as a whole.
+AreaWeights measured_area(MeasuredParams p) { return AreaWeights(vec3(0.0), p.scale, vec3(0.0)); }

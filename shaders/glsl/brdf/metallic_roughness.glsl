@@ -13,6 +13,7 @@
 /// error  relative, at most 5 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
 ///        Where both cosines > 0.01 and f > 1e-6: < 4.2e-6 for alpha > 0.07, 6e-5 > 7e-3, 7e-4 > 7e-4, 3e-2
 /// twin   engine/shading/brdf/metallic_roughness.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 
@@ -55,3 +56,11 @@ vec3 metallic_roughness_f_cos(Dirs d, MetallicRoughnessParams p)
 
 vec3 metallic_roughness_ambient(MetallicRoughnessParams p) { return p.base_color; }
 float metallic_roughness_roughness(MetallicRoughnessParams p) { return p.roughness; }
+
+/// For lights with a body: the base, and the terms of F = f0 (1 - S) + S.
+AreaWeights metallic_roughness_area(MetallicRoughnessParams p)
+{
+    float dielectric = max(1.0 - p.metallic, 0.0);
+    vec3 f0 = 0.04 * dielectric + p.base_color * p.metallic;
+    return AreaWeights((1.0 - f0) * p.base_color * dielectric, f0, vec3(1.0));
+}

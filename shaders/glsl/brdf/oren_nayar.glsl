@@ -16,6 +16,7 @@
 ///        1 - |cos(phi)| = sin^2(phi) / (1 + |cos(phi)|); angles from sine and cosine, never acos
 /// error  relative, at most 2 x 2^-24 (4 t + c), t the ratio of the terms' sizes to their sum, c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/oren_nayar.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 #include "common/numeric.glsl"
@@ -68,3 +69,6 @@ vec3 oren_nayar_f_cos(Dirs d, OrenNayarParams p)
 
 vec3 oren_nayar_ambient(OrenNayarParams p) { return p.diffuse; }
 float oren_nayar_roughness(OrenNayarParams p) { return 1.0; }
+
+/// For lights with a body: what is reflected once, and between facets.
+AreaWeights oren_nayar_area(OrenNayarParams p) { return AreaWeights(vec3(0.0), p.diffuse, p.diffuse * p.diffuse); }

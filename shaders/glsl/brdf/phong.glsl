@@ -16,6 +16,7 @@
 /// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md).
 ///        Where both cosines > 0.01 and f > 1e-6: < 7.1e-6
 /// twin   engine/shading/brdf/phong.cpp
+#include "common/area_weights.glsl"
 #include "common/constants.glsl"
 #include "common/dirs.glsl"
 #include "common/numeric.glsl"
@@ -47,3 +48,9 @@ vec3 phong_ambient(PhongParams p) { return p.ambient; }
 
 /// Roughness r of the lobe of like width: r^4 = alpha^2 = 2 / (4 n + 2).
 float phong_roughness(PhongParams p) { return sqrt(sqrt(1.0 / (2.0 * p.shininess + 1.0))); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights phong_area(PhongParams p)
+{
+    return AreaWeights(p.diffuse * (p.normalization == 1 ? 1.0 : PI), p.specular, vec3(0.0));
+}

@@ -12,6 +12,7 @@
 /// stable common/ward.glsl
 /// error  relative, at most 2 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/ward.cpp
+#include "common/area_weights.glsl"
 #include "common/ward.glsl"
 
 struct WardParams { vec3 diffuse; vec3 specular; float alpha; int variant; };
@@ -27,3 +28,6 @@ vec3 ward_ambient(WardParams p) { return p.diffuse + p.specular; }
 
 /// Roughness r of the lobe of like width: r^2 = alpha.
 float ward_roughness(WardParams p) { return sqrt(min(p.alpha, 1.0)); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights ward_area(WardParams p) { return AreaWeights(p.diffuse, p.specular, vec3(0.0)); }

@@ -18,6 +18,7 @@
 /// stable common/ward.glsl
 /// error  relative, at most 3 x 2^-24 (4 + c) with c the condition number (docs/how_to/add_a_brdf.md)
 /// twin   engine/shading/brdf/ward_anisotropic.cpp
+#include "common/area_weights.glsl"
 #include "common/ward.glsl"
 
 struct WardAnisotropicParams { vec3 diffuse; vec3 specular; float alpha_x; float alpha_y; float rotation; int form; int variant; };
@@ -35,3 +36,6 @@ vec3 ward_anisotropic_ambient(WardAnisotropicParams p) { return p.diffuse + p.sp
 
 /// Roughness r of the isotropic lobe of as large a peak: r^2 = sqrt(ax ay).
 float ward_anisotropic_roughness(WardAnisotropicParams p) { return sqrt(min(sqrt(p.alpha_x * p.alpha_y), 1.0)); }
+
+/// Lambert's part, and the lobe's weights for lights with a body.
+AreaWeights ward_anisotropic_area(WardAnisotropicParams p) { return AreaWeights(p.diffuse, p.specular, vec3(0.0)); }

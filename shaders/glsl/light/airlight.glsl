@@ -11,7 +11,8 @@
 ///        angles about the light 1 / r^2 is gone; Henyey and Greenstein, 1941
 /// stable all lengths by the law of sines from angles that are sums of positive ones; the smaller of an angle and its
 ///        supplement; 1 - cos from sines of half angles
-/// error  of a node against the twin's: tests/shading/airlight_test.cpp
+/// error  with 8 nodes 2e-3 of point lights and 7e-4 of spots on average, g from -0.9 to 0.9; with 64, 5e-6 and 1.4e-5
+///        (tests/shading/airlight_test.cpp)
 /// twin   engine/shading/fog.cpp
 #include "common/constants.glsl"
 #include "common/numeric.glsl"

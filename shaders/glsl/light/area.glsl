@@ -142,11 +142,12 @@ AreaCone area_disk_cone(vec3 center, vec3 facing, float radius)
     vec3 c = center * scale;
     float r = radius * scale;
     float above = max(-dot(c, facing), 1e-6);
-    vec3 offset = c + above * facing;  // from the foot of the perpendicular to the centre
+    vec3 offset = c - dot(c, facing) * facing;  // from the foot of the perpendicular to the centre
     float o = length(offset);
-    // Any direction in the plane will do where the foot is the centre.
+    // Any direction in the plane will do where the foot is the centre; near it, rounding has turned it out of the plane.
     vec3 side = abs(facing.z) < 0.7 ? vec3(-facing.y, facing.x, 0.0) : vec3(0.0, -facing.z, facing.y);
-    vec3 along = o > 1e-6 ? offset / o : normalize(side);
+    vec3 along = o > 1e-6 ? offset / o : side;
+    along = normalize(along - dot(along, facing) * facing);
     vec3 near_point = (o - r) * along - above * facing, far_point = (o + r) * along - above * facing;
     float near = length(near_point), far = length(far_point);
     float product = near * far;
@@ -160,9 +161,12 @@ AreaCone area_disk_cone(vec3 center, vec3 facing, float radius)
     cone.k = 2.0 * r * o / (sum * sqrt(product));
     float cos_b = cone.cos_a * sqrt(1.0 + cone.k * cone.k);
     cone.sin_b = min(r * above / (product * cos_b), cone.sin_a);
-    cone.z = normalize(near_point / near + far_point / far);
+    // The axis halves the angle between both ends: by their sum, or, where they nearly oppose each other, their difference.
     cone.x = cross(facing, along);
-    cone.y = cross(cone.z, cone.x);
+    bool wide = dot(near_point, far_point) < 0.0;
+    vec3 halving = normalize(wide ? far_point / far - near_point / near : far_point / far + near_point / near);
+    cone.y = wide ? halving : cross(halving, cone.x);
+    cone.z = wide ? cross(cone.x, halving) : halving;
     return cone;
 }
 

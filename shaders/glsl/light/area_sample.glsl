@@ -4,7 +4,8 @@
 ///        over u in [0, 1)^2 is the integral of f over the directions in which the light is seen
 /// frame  the receiver at the origin, any axes; lengths in any unit
 /// params as in light/area.glsl
-/// domain as in light/area.glsl; solid angle 0 where nothing of the light is seen
+/// domain as in light/area.glsl; solid angle 0 where nothing of the light is seen. From inside a tube its surface is at
+///        distance 0: nothing within it is in the way of its light
 /// source rect: Urena, Fajardo, King, "An area-preserving parametrization for spherical rectangles", EGSR 2013; small
 ///        ones by area. sphere: uniform in solid angle. disk: the elliptical cone that it is seen under, uniform where that
 ///        is round or narrow. tube: uniform in the angle about its axis, and in solid angle along it
@@ -111,10 +112,10 @@ AreaSample area_disk_sample(AreaDiskView v, vec2 u)
 /// A tube as one place sees it.
 struct AreaTubeView {
     AreaTube tube;
-    AreaSphereView end;  // all that is seen from off its end, within its cylinder; from inside, a sphere about the place
+    AreaSphereView end;  // all that is seen from off its end, within its cylinder, and from inside
     float scale;
     float reach;         // half the angle under which the cylinder is seen
-    bool beside;
+    bool beside, inside;
 };
 
 AreaTubeView area_tube_view(vec3 center, vec3 half_axis, float radius)
@@ -127,14 +128,16 @@ AreaTubeView area_tube_view(vec3 center, vec3 half_axis, float radius)
     float d = v.tube.distance;
     v.beside = d > r;
     v.reach = numeric_angle(sqrt(max((d - r) * (d + r), 0.0)), r);
-    v.end = area_sphere_view(v.tube.across * d + v.tube.along * clamp(0.0, v.tube.z1, v.tube.z2), r);
+    vec3 nearest = v.tube.across * d + v.tube.along * clamp(0.0, v.tube.z1, v.tube.z2);
+    v.end = area_sphere_view(nearest, r);
+    v.inside = length(nearest) <= r;
     return v;
 }
 
 AreaSample area_tube_sample(AreaTubeView v, vec2 u)
 {
     AreaSample end = area_sphere_sample(v.end, u);
-    end.distance *= v.scale;
+    end.distance *= v.inside ? 0.0 : v.scale;
     float r = v.tube.radius;
     float g = v.reach * (2.0 * u.y - 1.0);
     float y = clamp(numeric_cos_sin(g).y * v.tube.distance / r, -1.0, 1.0);
@@ -163,6 +166,7 @@ struct AreaRectView {
     vec3 x, y, z;
     float scale;
     vec3 low, high;  // corners; z of both is minus the height of the place over the plane
+    vec2 size;       // not their difference, which cancels
     float solid_angle;
     float b0, b1, k, turn;  // of the spherical rectangle; the angle from k on that it takes
     bool spherical;
@@ -189,6 +193,7 @@ AreaRectView area_rect_view(vec3 center, vec3 facing, vec3 axis, float half_widt
     vec2 size = vec2(half_width, half_height) / v.scale;
     bool behind = !(c.z < 0.0);
     c.z = min(c.z, -1e-7);
+    v.size = 2.0 * size;
     v.low = vec3(c.xy - size, c.z);
     v.high = vec3(c.xy + size, c.z);
     vec3 a = v.low, b = vec3(v.high.x, v.low.yz), d = vec3(v.low.x, v.high.yz);
@@ -219,8 +224,7 @@ AreaSample area_rect_sample(AreaRectView v, vec2 u)
     vec3 p = v.spherical ? vec3(x, y, z) : flat_point;
     float distance2 = dot(p, p);
     float distance = sqrt(distance2);
-    vec2 size = v.high.xy - v.low.xy;
-    float by_area = size.x * size.y * -z / (distance2 * distance);
+    float by_area = v.size.x * v.size.y * -z / (distance2 * distance);
     p /= distance;
     float solid_angle = v.spherical ? v.solid_angle : v.solid_angle > 0.0 ? by_area : 0.0;
     return AreaSample(v.x * p.x + v.y * p.y + v.z * p.z, v.scale * distance, solid_angle);

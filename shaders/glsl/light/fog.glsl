@@ -8,8 +8,8 @@
 /// source Beer-Lambert; the mean of an exponential over an interval
 /// stable (1 - e^-x) / x by its series below 0.5, where the plain form loses the digits of 1 / x; the density of the
 ///        way's lower end, so that the exponential's mean is at most 1
-/// error  relative: fog_phi < 8e-7, fog_opacity < 1e-6; depths: 1.5e-6 + 2e-7 (|log_density| + |slope| distance)
-///        (tests/shading/fog_test.cpp)
+/// error  relative: fog_phi and fog_opacity < 6.3e-7 (1.2e-7 seen); depths < 2^-24 (16 + 2 (|log_density| + |slope|
+///        distance)), of which half was seen (tests/shading/fog_test.cpp)
 /// twin   engine/shading/fog.cpp
 #include "common/numeric.glsl"
 

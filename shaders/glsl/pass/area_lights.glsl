@@ -6,9 +6,11 @@
 /// ray to the centre. AREA_MAP_SHADOWS: by a shadow map about the centre, as soft as of a sphere that is as large seen
 /// from the front; with AREA_POINT_SHADOWS as of a point. MIRRORED_LIGHTS: what an ideal mirror shows of them.
 ///
-/// Points: a sequence of low discrepancy (Roberts's R2: multiples of the plastic number's inverse powers), shifted from
-/// pixel to pixel and from light to light by a hash; jittered frames go on where the last one stopped, so that they add
-/// up to more points. 32-bit integers: no digit is lost however far it runs.
+/// Points: a lattice whose first 2^m points are a lattice for every m (Hickernell et al., "Extensible lattice sequences",
+/// SIAM J. Sci. Comput. 22(3), 2000; generator 1, 182667 of Cools, Kuo, Nuyens, ibid. 28(6), 2006), shifted from pixel to
+/// pixel and from light to light by a hash, and folded like a tent where what is integrated has ends (Hickernell, MCQMC
+/// 2000): smooth integrands then converge with the square of the number of points. Jittered frames go on where the last
+/// one stopped, so that they add up to more points.
 #include "light/area_sample.glsl"
 #include "pass/area_reflected.glsl"
 
@@ -73,11 +75,25 @@ uvec2 area_hash(uvec3 v)
 /// Where a light's points of one pixel start.
 uvec2 area_shift(int light, int type) { return area_hash(uvec3(uvec2(gl_FragCoord.xy), uint(light * 4 + type))); }
 
+uint area_reversed(uint i)
+{
+    i = ((i >> 1u) & 0x55555555u) | ((i & 0x55555555u) << 1u);
+    i = ((i >> 2u) & 0x33333333u) | ((i & 0x33333333u) << 2u);
+    i = ((i >> 4u) & 0x0f0f0f0fu) | ((i & 0x0f0f0f0fu) << 4u);
+    i = ((i >> 8u) & 0x00ff00ffu) | ((i & 0x00ff00ffu) << 8u);
+    return (i >> 16u) | (i << 16u);
+}
+
+/// In [0, 1)^2. 32-bit integers, which wrap around: no digit is lost.
 vec2 area_point(uvec2 shift, int i)
 {
-    uvec2 u = shift + uint(uAreaStart + i) * uvec2(3242174889u, 2447445414u);
+    uvec2 u = shift + area_reversed(uint(uAreaStart + i)) * uvec2(1u, 182667u);
     return vec2(u >> 8u) * (1.0 / 16777216.0);
 }
+
+vec2 area_folded(vec2 u) { return 1.0 - abs(2.0 * u - 1.0); }
+/// Of a square whose second side is an angle.
+vec2 area_folded_polar(vec2 u) { return vec2(1.0 - abs(2.0 * u.x - 1.0), u.y); }
 
 /// Sums over points: what all of them would reflect, and what arrives of it.
 struct AreaTally { vec3 lit, seen; };
@@ -195,7 +211,7 @@ AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
     do
-        area_count(tally, area_rect_sample(view, area_point(shift, point)), light, r, params);
+        area_count(tally, area_rect_sample(view, area_folded(area_point(shift, point))), light, r, params);
     while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
@@ -203,7 +219,7 @@ AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     tally.lit = vec3(0.0);
     point = 0;
     do {
-        AreaSample s = area_rect_sample(view, area_point(shift, point));
+        AreaSample s = area_rect_sample(view, area_folded(area_point(shift, point)));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
@@ -252,7 +268,7 @@ AreaTally disk_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
     do
-        area_count(tally, area_disk_sample(view, area_point(shift, point)), light, r, params);
+        area_count(tally, area_disk_sample(view, area_folded_polar(area_point(shift, point))), light, r, params);
     while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
@@ -260,7 +276,7 @@ AreaTally disk_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     tally.lit = vec3(0.0);
     point = 0;
     do {
-        AreaSample s = area_disk_sample(view, area_point(shift, point));
+        AreaSample s = area_disk_sample(view, area_folded_polar(area_point(shift, point)));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
@@ -309,7 +325,7 @@ AreaTally sphere_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS pa
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
     do
-        area_count(tally, area_sphere_sample(view, area_point(shift, point)), light, r, params);
+        area_count(tally, area_sphere_sample(view, area_folded_polar(area_point(shift, point))), light, r, params);
     while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
@@ -317,7 +333,7 @@ AreaTally sphere_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS pa
     tally.lit = vec3(0.0);
     point = 0;
     do {
-        AreaSample s = area_sphere_sample(view, area_point(shift, point));
+        AreaSample s = area_sphere_sample(view, area_folded_polar(area_point(shift, point)));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
@@ -366,7 +382,7 @@ AreaTally tube_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
     do
-        area_count(tally, area_tube_sample(view, area_point(shift, point)), light, r, params);
+        area_count(tally, area_tube_sample(view, area_folded(area_point(shift, point))), light, r, params);
     while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
@@ -374,7 +390,7 @@ AreaTally tube_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     tally.lit = vec3(0.0);
     point = 0;
     do {
-        AreaSample s = area_tube_sample(view, area_point(shift, point));
+        AreaSample s = area_tube_sample(view, area_folded(area_point(shift, point)));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
