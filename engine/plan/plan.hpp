@@ -71,8 +71,8 @@ struct FramePlan {
     bool clusteredPoint = false, clusteredSpot = false;
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
-    int airlightNodes = 0;  ///< of each lamp's airlight; 0: there is none
-    int mostLayers = 0;     ///< of blended surfaces that are peeled; 0: they are sorted by object
+    int airlightNodes = 0;                            ///< of each lamp's airlight; 0: there is none
+    int mostLayers = 0;  ///< of blended surfaces that are peeled; 0: they are sorted by object
     std::vector<SurfaceFeatures> surfaces;
     std::vector<PlannedBrdf> brdfs;
     std::vector<Channel> channels;
