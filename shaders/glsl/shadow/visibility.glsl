@@ -16,7 +16,7 @@ float light_visibility_by_ray(float slot, LightReceiver r, vec3 wi_w, float dist
     return wanted ? ray_visibility_through(r.position, r.geometric_normal, wi_w, distance, r.behind) : 1.0;
 }
 #endif
-#if defined(DIRECTIONAL_SHADOW_MAPS) || defined(POINT_SHADOW_MAPS) || defined(SPOT_SHADOW_MAPS)
+#if defined(DIRECTIONAL_SHADOW_MAPS) || defined(POINT_SHADOW_MAPS) || defined(SPOT_SHADOW_MAPS) || defined(AREA_MAP_SHADOWS)
 #include "shadow/maps.glsl"
 #endif
 #ifdef AREA_MAP_SHADOWS
