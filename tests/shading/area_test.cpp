@@ -136,7 +136,7 @@ TEST_P(Area, FactorsAgreeWithQuadrature) {
     for (size_t k = 0; k < 4; ++k) {
         const Kind& kind = kKinds[k];
         for (const Range& range : kRanges) {
-            const auto cases = someCases(kind, test::tableScale(400), range.nearest, range.farthest);
+            const auto cases = someCases(kind, test::tableScale(150), range.nearest, range.farthest);
             const auto got = evaluate(kind, cases);
             std::vector<Case> turned;
             for (const Case& c : cases)
