@@ -195,6 +195,30 @@ TEST(ShadowMaps, NoPlaneShadowsItself) {
     }
 }
 
+/// Depths are written by the shader then, and positions come from a channel of their own.
+TEST(ShadowMaps, WithoutClipControlEdgesAndPlanesAreAsGood) {
+    eglContext().release();
+    {
+        const auto context =
+            gl::Context::create({.backend = gl::Backend::egl, .maskedExtensions = {"GL_ARB_clip_control"}});
+        Renderer renderer(*context);
+        for (const Light& light : lightsOverGround({0, 0, 0}, 1.0)) {
+            SCOPED_TRACE(testing::Message() << "type " << static_cast<int>(light.type));
+            Scene scene = ballOverGround();
+            scene.lights = {light};
+            const double texel = light.type == LightType::directional ? 8.5 / kSize : 3.5 * 4.3 / kSize;
+            const Edges edges =
+                checkEdges(renderer, scene, cameraAbove(), {0, 0, 0}, 1.0, 2.5 * texel + 0.002, mapped(1));
+            EXPECT_GT(edges.dark, 30);
+            scene.instances.pop_back();
+            const Image with = drawn(renderer, scene, cameraAbove(), mapped());
+            EXPECT_EQ(with.values, drawn(renderer, scene, cameraAbove(), unshadowed()).values);
+        }
+        context->release();
+    }
+    eglContext().makeCurrent();
+}
+
 TEST(ShadowMaps, ForwardShadingSeesTheSame) {
     Renderer renderer(eglContext());
     Scene scene = ballOverGround();
