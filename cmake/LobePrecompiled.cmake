@@ -20,6 +20,13 @@ function(lobe_precompile target)
   endif()
 endfunction()
 
+# The programs' own: option parsing as well.
+function(lobe_precompile_app target)
+  if(LOBE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${LOBE_COMMON_HEADERS} <CLI/CLI.hpp>)
+  endif()
+endfunction()
+
 # After GTest was found.
 function(lobe_make_test_headers)
   if(LOBE_PRECOMPILED_HEADERS)
