@@ -17,6 +17,7 @@
 /// LOBE_COUNT: lobes of a table, 0 (Lambert alone), 2 or 4 (two of each term). LOBE_COSINES: k = 1 in all. LOBE_WIDTHS:
 /// tables span widths. LOBE_NODES: 4, 8 or 16 an edge.
 #include "common/constants.glsl"
+#include "common/dirs.glsl"
 #include "common/numeric.glsl"
 #include "common/table.glsl"
 #include "light/area.glsl"
