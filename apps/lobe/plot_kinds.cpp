@@ -274,11 +274,25 @@ PlotKind errorKind() {
             }};
 }
 
+PlotKind fitKind() {
+    return {"fit", "Error of the fits for lights with a body, over the angle of view and a parameter.",
+            [](CLI::App& app, PlotOptions& options) {
+                addModel(app, options, "model");
+                addSweep(app, options, "values of the parameter [12]");
+            },
+            [](const PlotOptions& options, const plot::Sampler&) {
+                const plot::Model model = modelOf(options.brdf, options.set);
+                const Sweep sweep = sweepOf(model, options.over, options.range, stepsOf(options, 12));
+                return plot::draw(plot::computeFitErrors(
+                    {model, sweep.over, sweep.values, plot::linearSteps(0.0, kSteepestAngle, 45)}));
+            }};
+}
+
 }  // namespace
 
 const std::vector<PlotKind>& plotKinds() {
     static const std::vector<PlotKind> kinds{lobesKind(),  tableKind(), fresnelKind(), albedoKind(),
-                                             lobe3dKind(), sliceKind(), errorKind()};
+                                             lobe3dKind(), sliceKind(), errorKind(), fitKind()};
     return kinds;
 }
 

@@ -212,6 +212,33 @@ std::optional<std::string> refusal(const TableRequest& request) {
     return reason;
 }
 
+TableRequest normalised(TableRequest request) {
+    const Brdf& brdf = *request.brdf;
+    const ParameterValues defaults = brdf.defaults();
+    const auto reset = [&](const std::string& name) {
+        const int index = brdf.parameterIndex(name);
+        if (index < 0) return;
+        const auto offset = static_cast<size_t>(brdf.valueOffset(index));
+        for (size_t c = 0; c < static_cast<size_t>(brdf.parameters[static_cast<size_t>(index)].components()); ++c)
+            request.values[offset + c] = defaults[offset + c];
+    };
+    // Where the model's own table lies in a buffer is nothing of the model's.
+    if (const int table = brdf.tableParameter(); table >= 0)
+        reset(brdf.parameters[static_cast<size_t>(table)].name);
+    if (request.colorsVary)
+        for (const std::string& color : brdf.area->colors)
+            reset(color);
+    if (request.widthVaries) reset(brdf.area->width);
+    return request;
+}
+
+int tableTexels(const TableRequest& request) {
+    const int terms = request.brdf->area->terms;
+    AreaTable table;
+    table.terms = request.colorsVary || terms == 0 ? terms : 1;
+    return 1 + (request.widthVaries ? kWidthNodes : 1) * kAngleNodes * table.nodeTexels();
+}
+
 double oneMinusCosAt(int node) {
     const double last = std::acos(std::sqrt(kLeastCosine));
     const double sine = std::sin(last * node / (kAngleNodes - 1));

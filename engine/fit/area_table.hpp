@@ -26,6 +26,13 @@ struct TableRequest {
     bool widthVaries = false;
 };
 
+/// The request with what varies, and so is not in the table, at the model's defaults: alike for all materials that one
+/// table serves.
+TableRequest normalised(TableRequest request);
+
+/// Texels of its table.
+int tableTexels(const TableRequest& request);
+
 /// Why no table is made for these values, in words, or nothing if one is.
 std::optional<std::string> refusal(const TableRequest& request);
 

@@ -66,10 +66,7 @@ bool fits(const Header& header, const std::vector<float>& texels) {
 std::string tableKey(const TableRequest& request) {
     ContentHash hash;
     hash.add(std::as_bytes(std::span(request.brdf->name)));
-    ParameterValues values = request.values;
-    // Where the model's table lies changes nothing of it.
-    if (const int table = request.brdf->tableParameter(); table >= 0)
-        values[static_cast<size_t>(request.brdf->valueOffset(table))] = 0.0;
+    const ParameterValues values = normalised(request).values;
     hash.add(std::as_bytes(std::span(values)));
     const std::array<int, 3> rest{kFitVersion, request.colorsVary ? 1 : 0, request.widthVaries ? 1 : 0};
     hash.add(std::as_bytes(std::span(rest)));
@@ -136,7 +133,7 @@ std::vector<AreaTable> TableCache::tables(const std::vector<TableRequest>& reque
     std::atomic<size_t> next = 0;
     const auto work = [&] {
         for (size_t job = next++; job < jobs.size(); job = next++) {
-            result[jobs[job]] = makeTable(requests[jobs[job]]);
+            result[jobs[job]] = makeTable(normalised(requests[jobs[job]]));
             keep(keys[jobs[job]], result[jobs[job]]);
         }
     };

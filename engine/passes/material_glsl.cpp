@@ -20,6 +20,11 @@ std::string modelAliases(const Brdf& brdf) {
         text += std::string("#define model_") + function + " " + brdf.name + "_" + function + "\n";
     if (brdf.mirror) text += "#define model_mirror " + brdf.name + "_mirror\n";
     if (brdf.transmittance) text += "#define model_transmittance " + brdf.name + "_transmittance\n";
+    if (!brdf.area) return text;
+    const int width = brdf.parameterIndex(brdf.area->width);
+    text += "#define model_area " + brdf.name + "_area\n#define model_area_width(p) " +
+            (width < 0 ? std::string("1.0") : "(p)." + brdf.parameters[static_cast<size_t>(width)].glslName) +
+            "\n";
     return text;
 }
 

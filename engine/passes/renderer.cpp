@@ -56,7 +56,7 @@ struct Renderer::State {
               options(renderOptions),
               plan(std::move(framePlan)),
               targets(plan, renderOptions.width, renderOptions.height),
-              tables(*scene),
+              tables(*scene, plan),
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               bodies(*scene, plan),

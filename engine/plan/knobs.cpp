@@ -115,8 +115,8 @@ std::string withoutLightSamples(const SceneSummary& scene, const Quality& qualit
     const auto scatters = [](const SurfaceFeatures& surface) { return scattersLight(surface.brdf); };
     if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), scatters))
         return "no surface scatters light of a body";
-    const bool closed = std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [](const auto& surface) {
-        return !scattersLight(surface.brdf) || hasClosedForm(surface.brdf);
+    const bool closed = std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& surface) {
+        return !scattersLight(surface.brdf) || hasClosedForm(scene, surface.brdf);
     });
     return closed && quality.areaLights == AreaLights::analytic && quality.shadows != Shadows::soft
                ? "lights are in closed form and no shadow is soft"

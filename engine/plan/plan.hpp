@@ -72,6 +72,7 @@ enum class AreaMethod : uint8_t {
 struct PlannedArea {
     AreaMethod method = AreaMethod::sampled;
     std::string reason;
+    AreaForm form = {};  ///< the table of fits, where it is analytic
 };
 
 struct FramePlan {

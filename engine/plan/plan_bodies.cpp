@@ -33,8 +33,9 @@ const char* nameOf(LightType type) {
     return kNames[static_cast<size_t>(type)];
 }
 
-bool hasClosedForm(const std::string& model) {
-    return model == "lambert";
+bool hasClosedForm(const SceneSummary& scene, const std::string& model) {
+    const auto form = scene.areaForms.find(model);
+    return form != scene.areaForms.end() && form->second.refusal.empty();
 }
 
 int Planner::bodyCount(LightType type) const {
@@ -50,8 +51,16 @@ PlannedArea Planner::areaMethod(const std::string& model) const {
     if (!scattersLight(model)) return {AreaMethod::mirrored, "where the mirrored ray meets them"};
     if (plan_.quality.areaLights == AreaLights::sampled)
         return {AreaMethod::sampled, "by points on each, as area_lights asks"};
-    if (hasClosedForm(model)) return {AreaMethod::analytic, "in closed form"};
-    return {AreaMethod::sampled, "by points on each: the model has no closed form"};
+    const auto found = scene_.areaForms.find(model);
+    if (found == scene_.areaForms.end()) return {AreaMethod::sampled, "by points on each: it has no fit"};
+    const AreaForm& form = found->second;
+    if (!form.refusal.empty()) return {AreaMethod::sampled, "by points on each: " + form.refusal};
+    if (form.terms == 0) return {AreaMethod::analytic, "in closed form", form};
+    const std::string lobes = plural(static_cast<int>(fit::kLobes) * form.terms, "fitted lobe");
+    return {AreaMethod::analytic,
+            "by " + lobes + (form.request.widthVaries ? ", over angle and " + form.request.brdf->area->width
+                                                      : ", over the angle of view"),
+            form};
 }
 
 void Planner::planBodyLights() {
@@ -126,7 +135,15 @@ Planner::Defines Planner::bodyDefines(const std::string& model, LightType type) 
     }
     if (area.method == AreaMethod::analytic) {
         defines["AREA_ANALYTIC"] = "1";
-        defines["AREA_LAMBERT"] = "1";
+        const AreaForm& form = area.form;
+        defines["LOBE_COUNT"] = std::to_string(static_cast<int>(fit::kLobes) * form.terms);
+        if (form.terms > 0) {
+            defines["LOBE_FIRST"] = std::to_string(form.firstRow);
+            if (form.request.brdf->area->powerTail) defines["LOBE_COSINES"] = "1";
+            if (form.request.widthVaries) defines["LOBE_WIDTHS"] = "1";
+            // Colours that do not vary are in the table.
+            defines["LOBE_WEIGHTS(w)"] = form.request.colorsVary ? "w.first, w.second" : "vec3(1.0), vec3(1.0)";
+        }
     }
     if (area.method == AreaMethod::sampled || (shadowed && !maps && !hard)) defines["AREA_SAMPLED"] = "1";
     return defines;

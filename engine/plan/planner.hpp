@@ -16,7 +16,7 @@ std::string plural(int count, const std::string& noun);
 bool scattersLight(const std::string& model);
 
 /// Whether light of bodies that surfaces of this model reflect is known without points on them.
-bool hasClosedForm(const std::string& model);
+bool hasClosedForm(const SceneSummary& scene, const std::string& model);
 
 /// Bytes a pixel of a format, by its OpenGL name.
 int bytesOfFormat(const std::string& format);

@@ -284,6 +284,7 @@ SceneSummary summarise(const Scene& scene) {
         use.material = &material;
         use.vertexColors |= features.vertexColors;
     }
+    if (!summary.bodyLights.empty()) summary.areaForms = areaForms(scene);
     for (const auto& [name, uses] : opaqueUses) {
         std::vector<Use> list;
         for (const auto& [index, use] : uses)

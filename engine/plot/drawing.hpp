@@ -3,6 +3,7 @@
 
 #include "plot/albedo.hpp"
 #include "plot/error_map.hpp"
+#include "plot/fit_errors.hpp"
 #include "plot/fresnel_curves.hpp"
 #include "plot/lobe_surface.hpp"
 #include "plot/slice.hpp"
@@ -32,6 +33,7 @@ Drawing draw(const Surface& surface);
 Drawing draw(const Slice& slice);
 enum class ErrorMeasure { ulp, share };
 Drawing draw(const ErrorMap& map, ErrorMeasure measure);
+Drawing draw(const FitErrors& fits);
 
 enum class Format { svg, png, csv };
 

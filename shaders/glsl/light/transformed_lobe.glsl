@@ -17,6 +17,7 @@
 /// LOBE_COUNT: lobes of a table, 0 (Lambert alone), 2 or 4 (two of each term). LOBE_COSINES: k = 1 in all. LOBE_WIDTHS:
 /// tables span widths. LOBE_NODES: 4, 8 or 16 an edge.
 #include "common/constants.glsl"
+#include "common/dirs.glsl"
 #include "common/numeric.glsl"
 #include "common/table.glsl"
 #include "light/area.glsl"
@@ -325,5 +326,79 @@ vec3 lobe_sphere(LobeFit fit, vec3 center, float radius)
     for (int i = 0; i < LOBE_COUNT; ++i)
         inside += fit.lobes[i].weight;
     return d > r ? outside : inside;
+}
+
+/// One end of a tube as the origin sees it: the circle along which its ball is touched, and the part of it, from -beta to
+/// beta about `outward`, that is the outline of the tube.
+struct LobeTubeEnd {
+    vec3 center, outward;
+    float radius, beta;
+};
+
+/// `ball` is the end's centre, `outward` points along the axis, away from the other end; `touched` is where the tangent
+/// plane on the side of `side` touches the ball.
+LobeTubeEnd lobe_tube_end(vec3 ball, vec3 outward, vec3 side, vec3 touched, float radius)
+{
+    float d2 = max(dot(ball, ball), 1e-36);
+    float gap = max(d2 - radius * radius, 0.0) / d2;
+    LobeTubeEnd end;
+    end.center = ball * gap;
+    end.radius = radius * sqrt(gap);
+    vec3 across = outward - ball * (dot(outward, ball) / d2);
+    float length2 = dot(across, across);
+    end.outward = across * inversesqrt(max(length2, 1e-30));
+    vec3 from = touched - end.center;
+    end.beta = area_angle(dot(from, end.outward), abs(dot(from, side)));
+    return end;
+}
+
+/// A tube: what is within `radius` of the line from `center` - `half_axis` to `center` + `half_axis`.
+vec3 lobe_tube(LobeFit fit, vec3 center, vec3 half_axis, float radius)
+{
+    float scale = 1.0 / max(max(area_largest(center), area_largest(half_axis)), max(radius, 1e-30));
+    vec3 c = center * scale, h = half_axis * scale;
+    float r = radius * scale;
+    float half_length = length(h);
+    vec3 along = h / max(half_length, 1e-30);
+    vec3 perpendicular = c - along * dot(along, c);
+    float distance = max(length(perpendicular), 1e-12);
+    vec3 e = perpendicular / distance;
+    vec3 side = cross(along, e);
+    float ratio = min(r / distance, 1.0);
+    // Normal of the tangent plane, both of which contain the axis' direction.
+    vec3 normal = ratio * e - sqrt((1.0 - ratio) * (1.0 + ratio)) * side;
+    LobeTubeEnd first = lobe_tube_end(c + h, along, side, c + h - r * normal, r);
+    LobeTubeEnd second = lobe_tube_end(c - h, -along, side, c - h - r * normal, r);
+    const int STEPS = 8;
+    LobeSum s = lobe_sum();
+    vec3 start = vec3(0.0), from = vec3(0.0);
+    int i = 0;
+    do {
+        bool at_first = i <= STEPS;
+        LobeTubeEnd end = second;
+        if (at_first)
+            end = first;
+        float step_angle = end.beta * (2.0 / float(STEPS));
+        vec2 turn = numeric_cos_sin(step_angle * float(at_first ? i : 2 * STEPS + 1 - i) - end.beta);
+        // The polygon has the area of the circle.
+        float wide = end.radius * (1.0 + step_angle * step_angle / 12.0);
+        vec3 to = end.center + wide * (turn.x * end.outward + turn.y * side) - c;
+        if (i == 0)
+            start = to;
+        else
+            lobe_add_edge(s, fit, c, from, to);
+        from = to;
+    } while (++i < 2 * STEPS + 2);
+    lobe_add_edge(s, fit, c, from, start);
+    vec3 outline = lobe_total(s, fit, c, half_length + r);
+    // Behind an end, within the cylinder, that end's ball is all that is seen.
+    float along_c = dot(along, c);
+    vec3 nearest = c + along * clamp(-along_c, -half_length, half_length);
+    vec3 ball = lobe_sphere(fit, along_c > 0.0 ? c - h : c + h, r);
+    vec3 inside = vec3(0.0);
+    for (int j = 0; j < LOBE_COUNT; ++j)
+        inside += fit.lobes[j].weight;
+    vec3 outside = ratio < 1.0 ? outline : ball;
+    return dot(nearest, nearest) > r * r ? outside : inside;
 }
 #endif

@@ -434,6 +434,9 @@ vec3 tube_lights(LightReceiver r, MODEL_PARAMS params)
 vec3 all_area_lights(LightReceiver r, MODEL_PARAMS params)
 {
     vec3 sum = vec3(0.0);
+#ifdef AREA_ANALYTIC
+    area_begin(r, params);
+#endif
 #ifdef MIRRORED_LIGHTS
     sum += mirrored_lights(r, params);
 #else

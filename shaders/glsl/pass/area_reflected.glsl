@@ -1,7 +1,9 @@
 /// area_reflected.glsl - what a surface reflects towards the eye of a whole light with a body, unshadowed and per unit of
 /// radiance: the plan sets AREA_ANALYTIC for models that have it in closed form.
 ///
-/// AREA_LAMBERT: ideally diffuse, k_d times the light's factor.
+/// Lambert's part of a model is exact (light/area.glsl), the rest by lobes fitted to it (light/transformed_lobe.glsl):
+/// LOBE_COUNT of them, 0 for none, from row LOBE_FIRST of the tables on; LOBE_WEIGHTS(w): the colours' weights of the
+/// first half and the second half of them. area_begin() comes first.
 
 /// A light with a body as one fragment sees it.
 struct AreaLight {
@@ -13,38 +15,78 @@ struct AreaLight {
     float slot;     // of its shadow; -1: casts none
 };
 
-#ifdef AREA_LAMBERT
-vec3 area_lambert(LightReceiver r, MODEL_PARAMS p, float factor)
-{
-    return r.wo.z > 0.0 ? model_ambient(p) * factor : vec3(0.0);
-}
+#ifdef AREA_ANALYTIC
+#include "light/transformed_lobe.glsl"
 
 vec3 area_local(LightReceiver r, vec3 v) { return frame_to_local(r.frame, v); }
+
+/// What all lights of a fragment share: the model's parts at its angle of view.
+struct AreaSurface {
+    vec3 lambert;
+#if LOBE_COUNT > 0
+    LobeFit fit;
+#endif
+};
+
+AreaSurface area_surface;
+
+void area_begin(LightReceiver r, MODEL_PARAMS p)
+{
+    AreaWeights weights = model_area(p);
+    area_surface.lambert = r.wo.z > 0.0 ? weights.lambert : vec3(0.0);
+#if LOBE_COUNT > 0
+    area_surface.fit = lobe_fetch(LOBE_FIRST, model_area_width(p), r.wo, LOBE_WEIGHTS(weights));
+    area_surface.lambert *= area_surface.fit.base;
+    if (!(r.wo.z > 0.0))
+        for (int i = 0; i < LOBE_COUNT; ++i)
+            area_surface.fit.lobes[i].weight = vec3(0.0);
+#endif
+}
 
 #ifdef RECT_LIGHTS
 vec3 area_reflected_rect(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 {
-    return area_lambert(r, p, area_rect_factor(area_local(r, light.center), area_local(r, light.axis) * light.a,
-                                               area_local(r, cross(light.facing, light.axis)) * light.b,
-                                               area_local(r, light.facing)));
+    vec3 center = area_local(r, light.center), facing = area_local(r, light.facing);
+    vec3 half_u = area_local(r, light.axis) * light.a, half_v = area_local(r, cross(light.facing, light.axis)) * light.b;
+    vec3 sum = area_surface.lambert * area_rect_factor(center, half_u, half_v, facing);
+#if LOBE_COUNT > 0
+    vec3 lobes = lobe_rect(area_surface.fit, center, half_u, half_v);
+    sum += dot(center, facing) < 0.0 ? lobes : vec3(0.0);
+#endif
+    return sum;
 }
 #endif
 #ifdef DISK_LIGHTS
 vec3 area_reflected_disk(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 {
-    return area_lambert(r, p, area_disk_factor(area_local(r, light.center), area_local(r, light.facing), light.a));
+    vec3 center = area_local(r, light.center), facing = area_local(r, light.facing);
+    vec3 sum = area_surface.lambert * area_disk_factor(center, facing, light.a);
+#if LOBE_COUNT > 0
+    sum += lobe_disk(area_surface.fit, center, facing, light.a);
+#endif
+    return sum;
 }
 #endif
 #ifdef SPHERE_LIGHTS
 vec3 area_reflected_sphere(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 {
-    return area_lambert(r, p, area_sphere_factor(area_local(r, light.center), light.a));
+    vec3 center = area_local(r, light.center);
+    vec3 sum = area_surface.lambert * area_sphere_factor(center, light.a);
+#if LOBE_COUNT > 0
+    sum += lobe_sphere(area_surface.fit, center, light.a);
+#endif
+    return sum;
 }
 #endif
 #ifdef TUBE_LIGHTS
 vec3 area_reflected_tube(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 {
-    return area_lambert(r, p, area_tube_factor(area_local(r, light.center), area_local(r, light.axis) * light.a, light.b));
+    vec3 center = area_local(r, light.center), half_axis = area_local(r, light.axis) * light.a;
+    vec3 sum = area_surface.lambert * area_tube_factor(center, half_axis, light.b);
+#if LOBE_COUNT > 0
+    sum += lobe_tube(area_surface.fit, center, half_axis, light.b);
+#endif
+    return sum;
 }
 #endif
 #endif
