@@ -3,8 +3,8 @@
 namespace lobe {
 namespace {
 
-/// Above a material's textures and the lights' buffers.
-constexpr int kLayerUnit = 14;
+/// Apart from those that are counted up from 0 for textures and lights; OpenGL 3.3 has 48 of them.
+constexpr int kLayerUnit = 27;
 
 }  // namespace
 

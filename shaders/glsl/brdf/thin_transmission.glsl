@@ -45,8 +45,8 @@ float thin_transmission_roughness(ThinTransmissionParams p) { return p.roughness
 /// What comes straight through, per channel; cosine = n.v: what the dielectric does not reflect, in the base's colour.
 vec3 thin_transmission_transmittance(float cosine, ThinTransmissionParams p)
 {
-    float w = clamp(1.0 - cosine, 0.0, 1.0);
-    float v = 1.0 - w;
+    float v = clamp(cosine, 0.0, 1.0);
+    float w = 1.0 - v;
     float refracted = 0.96 * v * (1.0 + w * (1.0 + w * (1.0 + w * (1.0 + w))));  // 1 - F
     return p.base_color * (max(1.0 - p.metallic, 0.0) * p.transmission * refracted);
 }
