@@ -5,6 +5,33 @@
 #include "plan/planner.hpp"
 
 namespace lobe {
+namespace {
+
+/// Triangles up to which rays are taken where the choice is ours. A ray visits more boxes the more there are,
+/// a map's look-up stays the same (docs/shadows.md, "Which").
+constexpr size_t kRaysUpTo = 20000;
+/// For lights with a body: rays converge to the truth, where maps guess.
+constexpr size_t kBodyRaysUpTo = 200000;
+
+}  // namespace
+
+/// Whether maps are to be looked into, as asked or as suits the scene.
+bool Planner::prefersMaps(size_t raysUpTo) const {
+    if (plan_.quality.shadowMethod != ShadowMethod::automatic)
+        return plan_.quality.shadowMethod == ShadowMethod::maps;
+    // Blended surfaces cast nothing into maps.
+    if (scene_.blendedCasters && whyNoRays().empty()) return false;
+    return scene_.castingTriangles > raysUpTo || !whyNoRays().empty();
+}
+
+/// Why maps were taken, where nobody asked for them.
+std::string Planner::mapsReason() const {
+    return plan_.quality.shadowMethod == ShadowMethod::maps
+               ? ""
+               : ", as rays through " + std::to_string(scene_.castingTriangles) +
+                     " triangles would take longer";
+}
+
 std::string Planner::whyNoShadow(int casting) const {
     if (plan_.quality.shadows == Shadows::none) return "shadows are off";
     if (casting == 0) return "LOBE_shadow says of each of these lights that it casts none";
@@ -34,12 +61,16 @@ PlannedShadow Planner::shadowMethod(LightType type, int lights, int casting) {
         leaveOut("shadow", nameOf(type), reason);
         return PlannedShadow::none;
     }
-    if (plan_.quality.shadowMethod == ShadowMethod::maps) return PlannedShadow::maps;
+    const std::string which = casting == lights ? plural(casting, "light")
+                                                : std::to_string(casting) + " of " + plural(lights, "light");
+    if (prefersMaps(kRaysUpTo)) {
+        plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: maps, for " + which +
+                              mapsReason());
+        return PlannedShadow::maps;
+    }
     requireRays();
     plan_.notes.push_back(std::string("shadows of ") + nameOf(type) +
-                          " lights: rays, exact and without bias, for " +
-                          (casting == lights ? plural(casting, "light")
-                                             : std::to_string(casting) + " of " + plural(lights, "light")));
+                          " lights: rays, exact and without bias, for " + which);
     return PlannedShadow::rays;
 }
 
@@ -73,21 +104,21 @@ void Planner::planBodyShadows() {
             leaveOut("shadow", nameOf(type), reason);
             continue;
         }
-        if (plan_.quality.shadowMethod == ShadowMethod::maps && !mirrors) {
+        if (prefersMaps(kBodyRaysUpTo) && !mirrors) {
             plan_.shadows[type] = PlannedShadow::maps;
             plan_.notes.push_back(
                 std::string("shadows of ") + nameOf(type) + " lights: maps about their centres, " +
                 (plan_.quality.shadows == Shadows::hard
                      ? "as of points"
-                     : "filtered as wide as what blocks them suggests: right for one depth of blockers"));
+                     : "filtered as wide as what blocks them suggests: right for one depth of blockers") +
+                mapsReason());
             continue;
         }
         requireRays();
-        plan_.notes.push_back(
-            std::string("shadows of ") + nameOf(type) + " lights: rays, " +
-            (mirrors && plan_.quality.shadowMethod == ShadowMethod::maps ? "as mirrors need them, " : "") +
-            (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
-                                                    : "one to each point on them"));
+        plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: rays, " +
+                              (mirrors && prefersMaps(kBodyRaysUpTo) ? "as mirrors need them, " : "") +
+                              (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
+                                                                      : "one to each point on them"));
     }
 }
 
