@@ -41,32 +41,37 @@ std::vector<ShadowTime> shadowTimes(gl::Context& context, const std::vector<Scen
     std::vector<Scene> scenes = {balls(8), balls(53)};
     scenes.insert(scenes.end(), extra.begin(), extra.end());
     std::vector<ShadowTime> results;
-    // One light more makes the difference: what a pass costs without any falls out.
-    constexpr int kFew = 1, kMany = 3;
+    struct Method {
+        const char* name;
+        Shadows shadows;
+        ShadowMethod by;
+        int more;  ///< lights that make the difference: what a pass costs without any falls out
+    };
+    constexpr Method kMethods[] = {{"none", Shadows::none, ShadowMethod::automatic, 64},
+                                   {"rays", Shadows::hard, ShadowMethod::rays, 2}};
     for (const Scene& scene : scenes)
         for (const auto& [name, type] : kTypes) {
             std::map<std::pair<std::string, int>, std::unique_ptr<Drawing>> drawings;
-            for (const auto& [method, shadows, by] :
-                 {std::tuple("none", Shadows::none, ShadowMethod::automatic),
-                  std::tuple("rays", Shadows::hard, ShadowMethod::rays)})
-                for (const int count : {kFew, kMany}) {
+            for (const Method& method : kMethods)
+                for (const int count : {1, 1 + method.more}) {
                     Quality quality{.samples = 1};
-                    quality.shadows = shadows;
-                    quality.shadowMethod = by;
-                    drawings[{method, count}] = std::make_unique<Drawing>(
+                    quality.shadows = method.shadows;
+                    quality.shadowMethod = method.by;
+                    drawings[{method.name, count}] = std::make_unique<Drawing>(
                         context, withLights(scene, type, count), quality, width, height);
                 }
             for (int round = 0; round < rounds; ++round)
                 for (auto& [key, drawing] : drawings)
                     drawing->draw();
-            const auto each = [&](const std::string& method) {
-                return (drawings[{method, kMany}]->seconds() - drawings[{method, kFew}]->seconds()) * 1e9 /
-                       ((kMany - kFew) * static_cast<double>(width) * height);
+            const auto each = [&](const Method& method) {
+                return (drawings[{method.name, 1 + method.more}]->seconds() -
+                        drawings[{method.name, 1}]->seconds()) *
+                       1e9 / (method.more * static_cast<double>(width) * height);
             };
-            ShadowTime time{scene.name,   name,         "rays", scene.triangleCount(),
-                            each("none"), each("rays"), 0.0,    0.0};
+            ShadowTime time{scene.name,        name, "rays", scene.triangleCount(), each(kMethods[0]),
+                            each(kMethods[1]), 0.0,  0.0};
             time.ratio = time.shadowed / time.plain;
-            time.setUp = drawings[{"rays", kFew}]->setUp() - drawings[{"none", kFew}]->setUp();
+            time.setUp = drawings[{"rays", 1}]->setUp() - drawings[{"none", 1}]->setUp();
             results.push_back(time);
             done(time);
         }

@@ -15,7 +15,7 @@ namespace lobe {
 
 /// Most lights that one loop of a shader runs over: llvmpipe ends loops at 65535 iterations without a word.
 inline constexpr int kLightsPerDraw = 32768;
-/// The same where each casts rays: 8,000 iterations a ray, of which few need more than 500.
+/// The same where each casts rays: 8,000 iterations a ray.
 inline constexpr int kLightsPerDrawOfRays = 8;
 
 class LightBuffers {
