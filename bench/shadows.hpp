@@ -17,7 +17,8 @@ struct ShadowTime {
         0.0;  ///< a light without shadow, ns a pixel of processor time, the pass's own cost taken off
     double shadowed = 0.0;  ///< with
     double ratio = 0.0;     ///< shadowed / plain
-    double setUp = 0.0;     ///< ms, of what is made once a scene
+    double setUp = 0.0;     ///< ms more until the first picture: the hierarchy, and compiling unless the
+                            ///< driver's cache has it
 };
 
 /// Passes of each type of light over balls on a floor, few triangles and 100,000, by each method, in turn.

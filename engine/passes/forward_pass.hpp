@@ -8,8 +8,8 @@
 
 namespace lobe {
 
-/// Surfaces with all their light in one go: blended ones, back to front or layer by layer; with forward shading the
-/// opaque ones before them.
+/// Surfaces with all their light in one go: blended ones, back to front or layer by layer; with forward
+/// shading the opaque ones before them.
 class ForwardPass : public Pass {
 public:
     using Pass::Pass;

@@ -21,8 +21,8 @@ public:
     bool next(const View& view);
     /// Draws into colour targets with the depth of the layer found last, to be tested for equality.
     GLuint framebuffer(const std::vector<std::string>& colors);
-    /// Puts a layer's keys where pass/peel.glsl reads them: the one found last, or, to draw all that is in front of
-    /// it, the one before.
+    /// Puts a layer's keys where pass/peel.glsl reads them: the one found last, or, to draw all that is in
+    /// front of it, the one before.
     void bindLayer(const gl::Program& program, bool last = true) const;
 
 private:

@@ -22,9 +22,9 @@ struct PassTime {
 struct Picture {
     /// R,G,B,A: radiance and coverage, or everything asked for as named layers (plan/aov.hpp).
     Image image;
-    std::vector<PassTime> passTimes;  ///< summed over the samples of the frame; "readback" included
+    std::vector<PassTime> passTimes;    ///< summed over the samples of the frame; "readback" included
     std::vector<std::string> warnings;  ///< where the picture falls short of what the plan says
-    double milliseconds = 0.0;        ///< wall clock, from the first draw to the pixels being here
+    double milliseconds = 0.0;          ///< wall clock, from the first draw to the pixels being here
 };
 
 struct RenderOptions {

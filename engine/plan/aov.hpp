@@ -16,8 +16,8 @@ enum class Aov : uint8_t {
     albedo,        ///< albedo.R G B: the model's ambient reflectance (base colour, k_d)
     materialId,    ///< material.id: index in the file + 1; 0 where nothing is
     roughness,     ///< roughness.Y: metallic_roughness's r; other models: the equivalent r; 1 for Lambert
-    contributions  ///< emission, ambient, directional, point, spot, fog, transparent: R G B each, of those that
-                   ///< the scene can have; their sum is radiance
+    contributions  ///< emission, ambient, directional, point, spot, fog, transparent: R G B each, of those
+                   ///< that the scene can have; their sum is radiance
 };
 
 /// Names as on the command line, in the order of the enumeration: radiance, depth, ..., material_id, ...

@@ -27,7 +27,7 @@ struct LightShare {
 /// One surface that the pixel sees.
 struct SurfaceShare {
     SurfacePoint point;
-    glm::dvec3 wo{0.0};   ///< to the eye, in the local frame
+    glm::dvec3 wo{0.0};  ///< to the eye, in the local frame
     /// Of its radiance in the pixel's, mean of the channels: its coverage times what is left in front of it.
     double weight = 0.0;
     glm::dvec3 ambient{0.0};  ///< reflected ambient radiance

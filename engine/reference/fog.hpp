@@ -11,7 +11,8 @@ struct FogOnRay {
     glm::dvec3 radiance{0.0};  ///< added: the fog's own, and the airlight of point and spot lights
 };
 
-/// Over the first `length` metres (or infinity) of a ray; its direction is unit. Nothing shadows the airlight.
+/// Over the first `length` metres (or infinity) of a ray; its direction is unit. Nothing shadows the
+/// airlight.
 FogOnRay fogOnRay(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction, double length);
 
 }  // namespace lobe::reference

@@ -39,7 +39,8 @@ struct PixelTruth {
     glm::dvec3 total() const;
 };
 
-/// What shows of things behind a surface, per channel: where it does not cover them, and what it lets through.
+/// What shows of things behind a surface, per channel: where it does not cover them, and what it lets
+/// through.
 glm::dvec3 throughOf(const SurfacePoint& surface, const glm::dvec3& toEye);
 
 /// One for any number of threads.

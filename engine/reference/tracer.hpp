@@ -18,9 +18,9 @@ public:
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
 
-    /// Replaces `layers` by the surfaces along the ray, front to back, down to the first that is not seen through.
-    /// Masks cut holes; back faces of one-sided materials are not seen. Without differentials textures are
-    /// read at their finest level. Surfaces at one place come in the order of the scene.
+    /// Replaces `layers` by the surfaces along the ray, front to back, down to the first that is not seen
+    /// through. Masks cut holes; back faces of one-sided materials are not seen. Without differentials
+    /// textures are read at their finest level. Surfaces at one place come in the order of the scene.
     void surfacesAlong(const Ray& ray, const RayDifferentials* differentials,
                        std::vector<SurfacePoint>& layers) const;
 

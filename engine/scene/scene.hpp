@@ -74,8 +74,8 @@ struct Material {
     TextureSlot emissionTexture;
 };
 
-/// Whether the material's model lets light through from behind, and the material any of it: such surfaces are drawn
-/// over what lies behind them.
+/// Whether the material's model lets light through from behind, and the material any of it: such surfaces are
+/// drawn over what lies behind them.
 bool seesThrough(const Material& material);
 
 /// A triangle list. Arrays are empty or as long as `positions`.
@@ -144,7 +144,8 @@ struct Environment {
 };
 
 /// Beer-Lambert transmittance of the way from surface to eye (LOBE_fog): sigma(y) = extinction
-/// exp(-heightFalloff (y - height)), and radiance (1 - T) added; and the light of lamps that it scatters to the eye.
+/// exp(-heightFalloff (y - height)), and radiance (1 - T) added; and the light of lamps that it scatters to
+/// the eye.
 struct Fog {
     glm::dvec3 extinction{0.0};  ///< 1/m
     glm::dvec3 radiance{0.0};    ///< W/(m^2 sr)

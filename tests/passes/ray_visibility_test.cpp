@@ -175,10 +175,13 @@ Scene gridCube(int cells) {
             for (int i = 0; i < cells; ++i)
                 for (int j = 0; j < cells; ++j) {
                     const auto first = static_cast<uint32_t>(cube.positions.size());
-                    for (const glm::ivec2& corner : {glm::ivec2(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
+                    for (const glm::ivec2& corner :
+                         {glm::ivec2(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
                         glm::vec3 p(side);
-                        p[(axis + 1) % 3] = -1.0f + 2.0f * static_cast<float>(corner.x) / static_cast<float>(cells);
-                        p[(axis + 2) % 3] = -1.0f + 2.0f * static_cast<float>(corner.y) / static_cast<float>(cells);
+                        p[(axis + 1) % 3] =
+                            -1.0f + 2.0f * static_cast<float>(corner.x) / static_cast<float>(cells);
+                        p[(axis + 2) % 3] =
+                            -1.0f + 2.0f * static_cast<float>(corner.y) / static_cast<float>(cells);
                         cube.positions.push_back(p);
                         cube.normals.emplace_back(0, 0, 1);
                     }

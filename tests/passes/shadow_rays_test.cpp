@@ -130,7 +130,7 @@ struct Agreement {
 
 Agreement agreement(const Scene& scene, const Camera& camera, const Quality& quality) {
     constexpr int kWidth = 128, kHeight = 80;
-    RenderOptions options = smallPicture(quality);
+    RenderOptions options = smallPicture(quality, {Aov::radiance}, Shadows::hard);
     options.width = kWidth;
     options.height = kHeight;
     const Image image = render(scene, camera, options);
@@ -240,7 +240,7 @@ TEST(ShadowRays, RaysCutShortAreAnError) {
     EXPECT_THROW(
         {
             try {
-                render(scene, camera, smallPicture(rays()));
+                render(scene, camera, smallPicture(rays(), {Aov::radiance}, Shadows::hard));
             } catch (const ContextError& error) {
                 EXPECT_NE(std::string(error.what()).find("steps"), std::string::npos) << error.what();
                 throw;

@@ -26,7 +26,9 @@ Scene litQuad(const std::string& brdf = "lambert") {
     return scene;
 }
 
-FramePlan planOf(const Scene& scene, const Quality& quality = {}, const AovSet& aovs = {Aov::radiance}) {
+/// Without shadows, whose plan has tests of its own.
+FramePlan planOf(const Scene& scene, Quality quality = {}, const AovSet& aovs = {Aov::radiance}) {
+    quality.shadows = Shadows::none;
     return planFrame(summarise(scene), quality, modern(), aovs);
 }
 

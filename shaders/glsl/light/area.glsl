@@ -194,6 +194,7 @@ struct AreaTube {
     vec3 across, side, along;  // unit: from the origin to the axis, across both, axis
     float distance;            // to the axis
     float z1, z2;              // of the ends' centres along the axis
+    float span;                // z2 - z1, which would cancel
     float w1, w2;              // sqrt(z^2 + distance^2 - radius^2)
     float radius;
 };
@@ -218,6 +219,7 @@ AreaTube area_tube(vec3 center, vec3 half_axis, float radius)
     tube.side = cross(tube.along, tube.across);
     tube.z1 = z - half_length;
     tube.z2 = z + half_length;
+    tube.span = 2.0 * half_length;
     float gap = max((tube.distance - radius) * (tube.distance + radius), 0.0);
     tube.w1 = sqrt(tube.z1 * tube.z1 + gap);
     tube.w2 = sqrt(tube.z2 * tube.z2 + gap);
@@ -237,7 +239,7 @@ AreaSlice area_tube_slice(AreaTube tube, float y, float left)
     slice.lower = vec2(x * tube.w1 + tube.z1 * rho, tube.z1 * tube.w1 - x * rho) * d1;
     slice.upper = vec2(x * tube.w2 - tube.z2 * rho, tube.z2 * tube.w2 + x * rho) * d2;
     // The cross product of both, whose terms do not cancel.
-    slice.sin_between = ((tube.z2 - tube.z1) * x * (tube.w1 * tube.w2 - rho * rho)
+    slice.sin_between = (tube.span * x * (tube.w1 * tube.w2 - rho * rho)
                          + rho * (tube.w1 + tube.w2) * (x * x + tube.z1 * tube.z2)) * (d1 * d2);
     slice.cos_between = dot(slice.lower, slice.upper);
     return slice;
