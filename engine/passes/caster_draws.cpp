@@ -33,7 +33,10 @@ void SurfaceDraws::prepareCasters(const PlannedPass& pass) {
 
 void SurfaceDraws::drawCasters(const PlannedPass& pass, const View& view,
                                const std::function<void(const gl::Program&)>& perProgram) {
-    const std::vector<glm::dvec4> planes = frustumPlanes(view);
+    // Maps reach to the end of the scene: their last plane, the far one, keeps nothing out, and is another
+    // without clip control.
+    std::vector<glm::dvec4> planes = frustumPlanes(view);
+    planes.pop_back();
     std::vector<std::pair<const Variant*, const Instance*>> items;
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
         const Instance& instance = scene_.instances[i];

@@ -7,21 +7,19 @@
 namespace lobe {
 namespace {
 
-/// Triangles up to which rays are taken where the choice is ours. A ray visits more boxes the more there are,
-/// a map's look-up stays the same (docs/shadows.md, "Which").
-constexpr size_t kRaysUpTo = 20000;
-/// For lights with a body: rays converge to the truth, where maps guess.
-constexpr size_t kBodyRaysUpTo = 200000;
+/// Triangles up to which rays are taken where the choice is ours: they are exact, and cost little more than
+/// maps do (docs/shadows.md, "Which").
+constexpr size_t kRaysUpTo = 200000;
 
 }  // namespace
 
 /// Whether maps are to be looked into, as asked or as suits the scene.
-bool Planner::prefersMaps(size_t raysUpTo) const {
+bool Planner::prefersMaps() const {
     if (plan_.quality.shadowMethod != ShadowMethod::automatic)
         return plan_.quality.shadowMethod == ShadowMethod::maps;
     // Blended surfaces cast nothing into maps.
     if (scene_.blendedCasters && whyNoRays().empty()) return false;
-    return scene_.castingTriangles > raysUpTo || !whyNoRays().empty();
+    return scene_.castingTriangles > kRaysUpTo || !whyNoRays().empty();
 }
 
 /// Why maps were taken, where nobody asked for them.
@@ -63,7 +61,7 @@ PlannedShadow Planner::shadowMethod(LightType type, int lights, int casting) {
     }
     const std::string which = casting == lights ? plural(casting, "light")
                                                 : std::to_string(casting) + " of " + plural(lights, "light");
-    if (prefersMaps(kRaysUpTo)) {
+    if (prefersMaps()) {
         plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: maps, for " + which +
                               mapsReason());
         return PlannedShadow::maps;
@@ -104,7 +102,7 @@ void Planner::planBodyShadows() {
             leaveOut("shadow", nameOf(type), reason);
             continue;
         }
-        if (prefersMaps(kBodyRaysUpTo) && !mirrors) {
+        if (prefersMaps() && !mirrors) {
             plan_.shadows[type] = PlannedShadow::maps;
             plan_.notes.push_back(
                 std::string("shadows of ") + nameOf(type) + " lights: maps about their centres, " +
@@ -116,7 +114,7 @@ void Planner::planBodyShadows() {
         }
         requireRays();
         plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: rays, " +
-                              (mirrors && prefersMaps(kBodyRaysUpTo) ? "as mirrors need them, " : "") +
+                              (mirrors && prefersMaps() ? "as mirrors need them, " : "") +
                               (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
                                                                       : "one to each point on them"));
     }

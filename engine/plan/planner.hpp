@@ -70,7 +70,7 @@ private:
     std::string whyNoRays() const;
     /// Throws ContextError if they cannot.
     void requireRays();
-    bool prefersMaps(size_t raysUpTo) const;
+    bool prefersMaps() const;
     std::string mapsReason() const;
     PlannedShadow shadowMethod(LightType type, int lights, int casting);
     /// For programs that include shadow/rays.glsl; where any does, FramePlan::rays is to be set.
