@@ -171,22 +171,6 @@ TEST(BodyLightPlan, ForwardSurfacesKeepToOneDraw) {
     EXPECT_THAT(plan.notes, testing::Contains(testing::HasSubstr("8 points on each light of 64")));
 }
 
-/// Eight colour attachments are what drivers have: contributions of lights that the scene lacks make room.
-TEST(BodyLightPlan, ContributionsOfBlendedSurfacesFit) {
-    Scene scene = underBody(LightType::rect);
-    scene.materials[0].alphaMode = AlphaMode::blend;
-    for (LightType type : {LightType::disk, LightType::sphere, LightType::tube})
-        scene.lights.push_back(body(type));
-    const AovSet aovs{Aov::radiance, Aov::contributions};
-    const FramePlan plan = planOf(scene, {}, aovs);
-    EXPECT_LE(plan.contributionTargets.size(), 7u);
-    EXPECT_THAT(plan.contributionTargets,
-                testing::IsSupersetOf({"rect", "disk", "sphere", "tube", "transparent"}));
-    scene.lights.push_back(test::point({0, 0, 2}, glm::dvec3(1.0)));
-    EXPECT_THROW(planOf(scene, {}, aovs), ContextError);
-    EXPECT_NO_THROW(planOf(scene));
-}
-
 TEST(BodyLightPlan, SaysWhatItDoes) {
     const std::string text = toText(planOf(underBody(LightType::sphere, "ggx")));
     EXPECT_THAT(text, testing::HasSubstr(
