@@ -12,8 +12,9 @@ namespace {
 constexpr size_t kFitDraws = 1024;     // of each search
 constexpr size_t kWeightDraws = 4096;  // of weights and albedos
 constexpr int kWidthNodes = 24;
-/// Where rows may begin: 69 degrees, where lobes differ most from round ones and are still resolved; 49 and 28.
-constexpr std::array kFreshNodes{30, 20, 12};
+/// Where rows may begin: 69 degrees, where lobes differ most from round ones and are still resolved; 49; and
+/// 0, where they are round.
+constexpr std::array kFreshNodes{30, 20, 0};
 constexpr int kSmoothings = 2;
 
 /// What one fit stands for: a term on its own, or all terms with the material's colours.
@@ -54,7 +55,8 @@ LobeFit between(const LobeFit& a, const LobeFit& b, double share) {
     return fit;
 }
 
-/// One width: fits along the angles of view, each from its neighbour's, so that their numbers change continuously.
+/// One width: fits along the angles of view, each from its neighbour's, so that their numbers change
+/// continuously.
 class Row {
 public:
     Row(const std::vector<std::vector<TermSample>>& samples, const Target& target, bool cosines) {
@@ -69,19 +71,19 @@ public:
         double least = HUGE_VAL;
         for (int node : kFreshNodes) {
             fitFrom(node, likeThese);
-            const double steepest = costBetween();
-            if (steepest < least) {
-                least = steepest;
+            const auto [cost, added] = costBetween();
+            if (cost < least) {
+                least = cost;
                 best = fits_;
             }
-            if (least < kGoodBetween) break;
+            if (added < kGoodBetween) break;
         }
         return best;
     }
 
 private:
-    /// About 2 % of the light of discs.
-    static constexpr double kGoodBetween = 8e-3;
+    /// About 1 % of the light of discs.
+    static constexpr double kGoodBetween = 3e-3;
 
     void fitFrom(int fresh, const std::vector<LobeFit>& likeThese) {
         fits_.assign(samples_.size(), {});
@@ -91,23 +93,26 @@ private:
             improveAt(n, fit(n - 1));
         for (int n = fresh - 1; n > 0; --n)
             improveAt(n, fit(n + 1));
-        roundAt0();
+        if (fresh > 0) roundAt0();
         for (int pass = 0; pass < kSmoothings; ++pass)
             for (int n = 1; n < last; ++n)
                 improveAt(n, between(fit(n - 1), fit(n + 1), 0.5));
     }
 
-    /// Largest cost that is added where a node is interpolated from its neighbours, up to 85 degrees.
-    double costBetween() {
+    /// Largest cost where a node is interpolated from its neighbours, and the most that this adds, up to 85
+    /// degrees.
+    std::pair<double, double> costBetween() {
         constexpr int kLastChecked = 37;
-        double most = 0.0;
+        double most = 0.0, added = 0.0;
         for (int n = 1; n <= kLastChecked; ++n) {
             const auto& samples = samples_[static_cast<size_t>(n)];
             if (isDark(samples)) continue;
             const LobeFit middle = between(fit(n - 1), fit(n + 1), 0.5);
-            most = std::max(most, costOf(middle, samples, kFitDraws, options_.cosines) - fit(n).cost);
+            const double cost = costOf(middle, samples, kFitDraws, options_.cosines);
+            most = std::max(most, cost);
+            added = std::max(added, cost - fit(n).cost);
         }
-        return most;
+        return {most, added};
     }
 
     LobeFit& fit(int node) { return fits_[static_cast<size_t>(node)]; }
@@ -122,6 +127,7 @@ private:
         if (isDark(samples)) return;
         FitOptions thorough = options_;
         thorough.evaluations = 150;
+        thorough.roundAbout = node == 0;
         fit(node) = fitFresh(samples, kFitDraws, thorough);
         if (likeThese.empty()) return;
         // The neighbour's kind of fit, unless it is much worse: rows are interpolated too.
@@ -160,7 +166,8 @@ struct Node {
 };
 
 /// Colours of the weights, from more draws than the search has.
-std::vector<NodeLobe> coloured(const Shapes& shapes, const std::vector<TermSample>& samples, const Target& target) {
+std::vector<NodeLobe> coloured(const Shapes& shapes, const std::vector<TermSample>& samples,
+                               const Target& target) {
     const std::vector<LobeSample> lobe = lobeSamples(samples, target);
     std::vector<NodeLobe> lobes;
     for (const LobeShape5& shape : shapes)
@@ -219,7 +226,8 @@ TableRequest normalised(TableRequest request) {
         const int index = brdf.parameterIndex(name);
         if (index < 0) return;
         const auto offset = static_cast<size_t>(brdf.valueOffset(index));
-        for (size_t c = 0; c < static_cast<size_t>(brdf.parameters[static_cast<size_t>(index)].components()); ++c)
+        for (size_t c = 0; c < static_cast<size_t>(brdf.parameters[static_cast<size_t>(index)].components());
+             ++c)
             request.values[offset + c] = defaults[offset + c];
     };
     // Where the model's own table lies in a buffer is nothing of the model's.
@@ -256,8 +264,9 @@ AreaTable makeTable(const TableRequest& request) {
     AreaTable table;
     table.cosines = area.powerTail;
     const size_t widthOffset =
-        area.width.empty() ? 0
-                           : static_cast<size_t>(request.brdf->valueOffset(request.brdf->parameterIndex(area.width)));
+        area.width.empty()
+            ? 0
+            : static_cast<size_t>(request.brdf->valueOffset(request.brdf->parameterIndex(area.width)));
     const int widths = request.widthVaries ? kWidthNodes : 1;
     const double low = std::log(area.widths.first), high = std::log(area.widths.second);
     table.terms = static_cast<int>(targetsOf(request, request.values).size());
@@ -303,15 +312,17 @@ AreaTable makeTable(const TableRequest& request) {
 TablePoint at(const AreaTable& table, double oneMinusCos, double width) {
     const int angles = table.angles(), widths = table.widths();
     const double x = angleCoordinate(oneMinusCos);
-    const double y = widths > 1 ? std::clamp((std::log(width) - double(table.texels[2])) * double(table.texels[3]), 0.0,
-                                             double(widths - 1))
-                                : 0.0;
-    const int column = std::min(static_cast<int>(x), angles - 2), row = std::min(static_cast<int>(y), widths - 1);
+    const double y = widths > 1
+                         ? std::clamp((std::log(width) - double(table.texels[2])) * double(table.texels[3]),
+                                      0.0, double(widths - 1))
+                         : 0.0;
+    const int column = std::min(static_cast<int>(x), angles - 2),
+              row = std::min(static_cast<int>(y), widths - 1);
     const auto number = [&](int texel, int component) {
         const auto nodeAt = [&](int r, int c) {
             const int node = std::min(r, widths - 1) * angles + c;
-            return double(
-                table.texels[4 * static_cast<size_t>(1 + node * table.nodeTexels() + texel) + static_cast<size_t>(component)]);
+            return double(table.texels[4 * static_cast<size_t>(1 + node * table.nodeTexels() + texel) +
+                                       static_cast<size_t>(component)]);
         };
         const double s = x - column, t = y - row;
         const double low = nodeAt(row, column) * (1.0 - s) + nodeAt(row, column + 1) * s;

@@ -10,8 +10,8 @@
 namespace lobe::fit {
 namespace {
 
-// Numbers of a lobe in the search: those of LobeShape5, the last as the logit of ln k between its bounds, and the
-// logarithm of the weight.
+// Numbers of a lobe in the search: those of LobeShape5, the last as the logit of ln k between its bounds, and
+// the logarithm of the weight.
 constexpr Eigen::Index kNumbers = 6;
 constexpr Eigen::Index kAll = kNumbers * static_cast<Eigen::Index>(kLobes);
 
@@ -24,9 +24,9 @@ double powerShare(double logit) {
 
 struct SearchLobe {
     TransformedLobe lobe;
-    double skew = 0.0;           // d / a
+    double skew = 0.0;  // d / a
     double weight = 0.0;
-    double powerSlope = 0.0;     // d k / d logit
+    double powerSlope = 0.0;  // d k / d logit
 };
 
 /// Residuals of the fit and their derivatives. The pull towards the start is one more residual a number.
@@ -38,15 +38,18 @@ public:
     using ValueType = Eigen::VectorXd;
     using JacobianType = Eigen::MatrixXd;
 
-    Residuals(const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options, Eigen::VectorXd start)
+    Residuals(const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options,
+              Eigen::VectorXd start)
         : samples_(&samples), options_(options), start_(std::move(start)), factors_(samples.size()) {
         double albedo = 0.0;
         for (const LobeSample& s : samples)
             albedo += s.value / s.density;
         albedo /= static_cast<double>(drawn);
         for (size_t i = 0; i < samples.size(); ++i)
-            factors_[i] = 1.0 / std::sqrt(samples[i].density * static_cast<double>(drawn) *
-                                          (0.5 * samples[i].value * albedo + 0.5 * albedo * albedo * samples[i].density));
+            factors_[i] =
+                1.0 /
+                std::sqrt(samples[i].density * static_cast<double>(drawn) *
+                          (0.5 * samples[i].value * albedo + 0.5 * albedo * albedo * samples[i].density));
     }
 
     int inputs() const { return static_cast<int>(kAll); }
@@ -203,7 +206,8 @@ TransformedLobe lobeOf(const LobeShape5& shape) {
     return lobe;
 }
 
-LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options) {
+LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, size_t drawn,
+                const FitOptions& options) {
     Eigen::VectorXd x = numbersOf(start, options);
     Residuals residuals(samples, drawn, options, x);
     Eigen::LevenbergMarquardt<Residuals> search(residuals);
@@ -246,8 +250,8 @@ LobeFit fitFresh(const std::vector<LobeSample>& samples, size_t drawn, const Fit
     return best;
 }
 
-std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<LobeSample>& samples, size_t drawn,
-                                      const std::vector<double>& values) {
+std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<LobeSample>& samples,
+                                      size_t drawn, const std::vector<double>& values) {
     static_assert(kLobes == 2);
     const TransformedLobe first = lobeOf(shapes[0]), second = lobeOf(shapes[1]);
     const double scale = albedoOf(samples, drawn);
@@ -277,7 +281,8 @@ std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<Lo
     if (drowned(secondAlbedo)) bb = ab = bf = 0.0;
     const double det = aa * bb - ab * ab;
     std::array<double, kLobes> weights{};
-    if (aa * bb > 0.0 && det > 1e-12 * aa * bb) weights = {(af * bb - bf * ab) / det, (bf * aa - af * ab) / det};
+    if (aa * bb > 0.0 && det > 1e-12 * aa * bb)
+        weights = {(af * bb - bf * ab) / det, (bf * aa - af * ab) / det};
     if (!(weights[0] >= 0.0 && weights[1] >= 0.0) || !(aa * bb > 0.0 && det > 1e-12 * aa * bb)) {
         const double onlyFirst = aa > 0.0 ? af / aa : 0.0, onlySecond = bb > 0.0 ? bf / bb : 0.0;
         if (onlyFirst * af >= onlySecond * bf)

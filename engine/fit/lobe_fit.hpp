@@ -32,19 +32,21 @@ TransformedLobe lobeOf(const LobeShape5& shape);
 struct LobeFit {
     Shapes shapes;
     std::array<double, kLobes> weights{};
-    double cost = 0.0;  ///< mean square of the error in units of the density of samples and the lobe, and of its albedo
+    double cost =
+        0.0;  ///< mean square of the error in units of the density of samples and the lobe, and of its albedo
 };
 
 struct FitOptions {
-    bool cosines = false;       ///< k = 1, for lobes with tails of power laws
-    bool roundAbout = false;    ///< a = c, b = d = 0, for normal incidence
-    double pull = 5e-3;         ///< towards the start, in units of the root of the cost per unit of a number
+    bool cosines = false;     ///< k = 1, for lobes with tails of power laws
+    bool roundAbout = false;  ///< a = c, b = d = 0, for normal incidence
+    double pull = 5e-3;       ///< towards the start, in units of the root of the cost per unit of a number
     int evaluations = 40;
 };
 
-/// The fit nearest to `start` of least squared error. `drawn`: the number of samples, those included that fell below
-/// the horizon and are not among `samples`.
-LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options);
+/// The fit nearest to `start` of least squared error. `drawn`: the number of samples, those included that
+/// fell below the horizon and are not among `samples`.
+LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, size_t drawn,
+                const FitOptions& options);
 
 /// The cost of a fit as it is.
 double costOf(const LobeFit& fit, const std::vector<LobeSample>& samples, size_t drawn, bool cosines);
@@ -52,9 +54,10 @@ double costOf(const LobeFit& fit, const std::vector<LobeSample>& samples, size_t
 /// The best of fits from several starts.
 LobeFit fitFresh(const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options);
 
-/// Least squares weights, at least 0, of the given shapes for `values` at the samples, scaled so that what lies above
-/// the horizon is the albedo of `values`. `samples` say where and how densely, and the lobe that errors are relative to.
-std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<LobeSample>& samples, size_t drawn,
-                                      const std::vector<double>& values);
+/// Least squares weights, at least 0, of the given shapes for `values` at the samples, scaled so that what
+/// lies above the horizon is the albedo of `values`. `samples` say where and how densely, and the lobe that
+/// errors are relative to.
+std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<LobeSample>& samples,
+                                      size_t drawn, const std::vector<double>& values);
 
 }  // namespace lobe::fit

@@ -6,7 +6,8 @@
 namespace lobe::fit {
 namespace {
 
-/// Without the lobe of Lambert's part, which is not fitted; a tenth of the draws goes to the cosine all the same.
+/// Without the lobe of Lambert's part, which is not fitted; a tenth of the draws goes to the cosine all the
+/// same.
 SamplingMixture mixtureOf(const Brdf& brdf, std::span<const double> values, const glm::dvec3& wo) {
     if (!brdf.samplingLobes) return BrdfSampler(brdf, values).at(wo);
     SamplingLobes lobes;
@@ -17,8 +18,8 @@ SamplingMixture mixtureOf(const Brdf& brdf, std::span<const double> values, cons
 
 }  // namespace
 
-std::vector<TermSample> sampleTerms(const Brdf& brdf, std::span<const double> values, const View& view, size_t drawn,
-                                    uint64_t seed) {
+std::vector<TermSample> sampleTerms(const Brdf& brdf, std::span<const double> values, const View& view,
+                                    size_t drawn, uint64_t seed) {
     const SamplingMixture mixture = mixtureOf(brdf, values, view.wo);
     const OwenSobol points({0, 0}, seed);
     const glm::dmat3 toView = glm::transpose(view.frame);

@@ -16,7 +16,7 @@ struct TermSample {
 };
 
 /// Terms at the directions above the horizon among `drawn` ones, spread evenly and alike for all views.
-std::vector<TermSample> sampleTerms(const Brdf& brdf, std::span<const double> values, const View& view, size_t drawn,
-                                    uint64_t seed = 1);
+std::vector<TermSample> sampleTerms(const Brdf& brdf, std::span<const double> values, const View& view,
+                                    size_t drawn, uint64_t seed = 1);
 
 }  // namespace lobe::fit

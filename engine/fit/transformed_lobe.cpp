@@ -12,7 +12,8 @@ View::View(double oneMinusCos) {
     const double cosine = 1.0 - oneMinusCos;
     const double sine = std::sqrt(oneMinusCos * (1.0 + cosine));
     wo = {sine, 0.0, cosine};
-    frame = glm::dmat3(glm::dvec3(cosine, 0.0, sine), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(-sine, 0.0, cosine));
+    frame =
+        glm::dmat3(glm::dvec3(cosine, 0.0, sine), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(-sine, 0.0, cosine));
 }
 
 double TransformedLobe::density(const glm::dvec3& w) const {

@@ -39,8 +39,8 @@ std::string bandText(const FitErrors& fits) {
                 ++count;
             }
         if (count > 0)
-            text += (text.empty() ? "to " : "; to ") + shortNumber(to) + "°: " + percent(sum / count) + ", at most " +
-                    percent(most);
+            text += (text.empty() ? "to " : "; to ") + shortNumber(to) + "°: " + percent(sum / count) +
+                    ", at most " + percent(most);
         from = to;
     }
     return text;
@@ -50,13 +50,19 @@ std::string bandText(const FitErrors& fits) {
 
 Drawing draw(const FitErrors& fits) {
     const FitErrorsRequest& request = fits.request;
-    Drawing drawing{tableOf(fits), request.model.brdf->title + ": error of the fits for lights with a body", {}, "", 900,
+    Drawing drawing{tableOf(fits),
+                    request.model.brdf->title + ": error of the fits for lights with a body",
+                    {},
+                    "",
+                    900,
                     640};
     drawing.caption = {
         describe(request.model) + (request.over.empty() ? "" : "; " + request.over + " as shown"),
-        "150 discs of 5 to 40° in the sky, half of them within the lobe: mean of the errors over mean of the light",
+        "150 discs of 5 to 40° in the sky, half of them within the lobe: mean of the errors over mean of the "
+        "light",
         bandText(fits)};
-    HeatMap map{"angle of view [°]", axisName(request.model, request.over), "mean error", request.angles,
+    HeatMap map{"angle of view [°]", axisName(request.model, request.over),
+                "mean error",        request.angles,
                 request.values,      {}};
     double most = 0.01;
     for (size_t a = 0; a < request.angles.size(); ++a) {

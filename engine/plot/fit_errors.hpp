@@ -1,4 +1,5 @@
-/// How far the fits that lights with a body are reflected by are from their model, over angle of view and width.
+/// How far the fits that lights with a body are reflected by are from their model, over angle of view and
+/// width.
 #pragma once
 
 #include "fit/disc_error.hpp"
@@ -19,8 +20,8 @@ struct FitErrors {
     std::vector<std::vector<fit::DiscError>> errors;
 };
 
-/// Each width has a fit of its own, as a material with constant parameters. Throws UsageError with the reason for models
-/// and values that nothing is fitted for.
+/// Each width has a fit of its own, as a material with constant parameters. Throws UsageError with the reason
+/// for models and values that nothing is fitted for.
 FitErrors computeFitErrors(const FitErrorsRequest& request);
 
 }  // namespace lobe::plot

@@ -1,4 +1,5 @@
-/// Lobes over polygons: the sum about the boundary against brute quadrature over directions, and the GLSL against it.
+/// Lobes over polygons: the sum about the boundary against brute quadrature over directions, and the GLSL
+/// against it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,10 +42,11 @@ Case randomCase(Pcg32& random, bool cosine) {
     c.lobe.c = asFloat(scale * random.logUniform(0.5, 4.0));
     c.lobe.b = asFloat(random.uniform(-1.0, 1.0));
     c.lobe.d = asFloat(0.8 * random.uniform(-1.0, 1.0) * c.lobe.a);
-    c.wo = asFloats(glm::normalize(cosineHemisphere({random.uniform(), random.uniform()}) + glm::dvec3(0.0, 0.0, 0.02)));
+    c.wo = asFloats(
+        glm::normalize(cosineHemisphere({random.uniform(), random.uniform()}) + glm::dvec3(0.0, 0.0, 0.02)));
     const glm::dvec3 mirrored(-c.wo.x, -c.wo.y, c.wo.z);
-    const glm::dvec3 towards =
-        glm::normalize(mirrored + random.uniform(0.0, 3.0) * width * uniformSphere({random.uniform(), random.uniform()}));
+    const glm::dvec3 towards = glm::normalize(
+        mirrored + random.uniform(0.0, 3.0) * width * uniformSphere({random.uniform(), random.uniform()}));
     const double distance = random.logUniform(1e-3, 1e3);
     c.center = asFloats(towards * distance);
     const double size = distance * random.logUniform(0.02, 2.0);
@@ -85,7 +87,8 @@ double bruteOf(const Case& c, int steps) {
     return sum;
 }
 
-/// Midpoints of cells: the error falls with their size at least linearly, so that what halving them changes bounds it.
+/// Midpoints of cells: the error falls with their size at least linearly, so that what halving them changes
+/// bounds it.
 TEST(LobePolygon, TheSumAboutTheBoundaryIsTheIntegral) {
     Pcg32 random(1);
     double worst = 0.0;
@@ -105,8 +108,10 @@ TEST(LobePolygon, TheSumAboutTheBoundaryIsTheIntegral) {
 TEST(LobePolygon, TheWholeSphereHoldsOneLobe) {
     TransformedLobe lobe{3.0, 0.4, 5.0, 1.0, 7.5};
     // A hemisphere about the lobe, as a polygon far out.
-    const std::vector<glm::dvec3> square{{1e6, 1e6, 1.0}, {-1e6, 1e6, 1.0}, {-1e6, -1e6, 1.0}, {1e6, -1e6, 1.0}};
-    const std::vector<glm::dvec3> below{{1e6, 1e6, 1.0}, {1e6, -1e6, 1.0}, {1e6, -1e6, -1e7}, {1e6, 1e6, -1e7}};
+    const std::vector<glm::dvec3> square{
+        {1e6, 1e6, 1.0}, {-1e6, 1e6, 1.0}, {-1e6, -1e6, 1.0}, {1e6, -1e6, 1.0}};
+    const std::vector<glm::dvec3> below{
+        {1e6, 1e6, 1.0}, {1e6, -1e6, 1.0}, {1e6, -1e6, -1e7}, {1e6, 1e6, -1e7}};
     EXPECT_LE(polygonIntegral(lobe, square), 1.0 + 1e-12);
     EXPECT_GT(polygonIntegral(lobe, square), 0.8);
     lobe = {3.0, 0.0, 3.0, 0.0, 7.5};
@@ -124,8 +129,8 @@ protected:
                 for (int i = 0; i < 3; ++i)
                     inputs.push_back(static_cast<float>(v[i]));
         }
-        const std::string defines = std::string("#define LOBE_COUNT 2\n#define LOBE_NODES ") + std::to_string(nodes) +
-                                    "\n" + (cosines ? "#define LOBE_COSINES\n" : "") +
+        const std::string defines = std::string("#define LOBE_COUNT 2\n#define LOBE_NODES ") +
+                                    std::to_string(nodes) + "\n" + (cosines ? "#define LOBE_COSINES\n" : "") +
                                     "#include \"light/transformed_lobe.glsl\"\n";
         harness::Snippet snippet{"lobe",
                                  {},
@@ -171,29 +176,40 @@ protected:
             worst = std::max(worst, error);
         }
         const double rms = std::sqrt(squares / double(cases.size()));
-        std::printf("%s, %d nodes: rms %.1e, worst %.1e of the lobe\n", cosines ? "cosines" : "powers", nodes, rms, worst);
+        std::printf("%s, %d nodes: rms %.1e, worst %.1e of the lobe\n", cosines ? "cosines" : "powers", nodes,
+                    rms, worst);
         EXPECT_LE(rms, rmsBound);
     }
 };
 
-/// What Gauss's rules leave of the edges' integrals: at most 2e-2, 5e-3, 1e-3 for rects anywhere. Those here are aimed at
-/// the lobes, so that nearly each has an edge within them: rms 3.6e-3, 6.5e-4 and 1.0e-4 were measured.
-TEST_P(GlslLobe, FourNodes) { compare(false, 4, 5e-3, 4e-2); }
-TEST_P(GlslLobe, EightNodes) { compare(false, 8, 1e-3, 1e-2); }
-TEST_P(GlslLobe, SixteenNodes) { compare(false, 16, 2e-4, 2e-3); }
+/// What Gauss's rules leave of the edges' integrals: at most 2e-2, 5e-3, 1e-3 for rects anywhere. Those here
+/// are aimed at the lobes, so that nearly each has an edge within them: rms 3.6e-3, 6.5e-4 and 1.0e-4 were
+/// measured.
+TEST_P(GlslLobe, FourNodes) {
+    compare(false, 4, 5e-3, 4e-2);
+}
+TEST_P(GlslLobe, EightNodes) {
+    compare(false, 8, 1e-3, 1e-2);
+}
+TEST_P(GlslLobe, SixteenNodes) {
+    compare(false, 16, 2e-4, 2e-3);
+}
 /// Closed form: roundings of five edges, a few of which cancel.
-TEST_P(GlslLobe, Cosines) { compare(true, 8, 2e-5, 2e-4); }
+TEST_P(GlslLobe, Cosines) {
+    compare(true, 8, 2e-5, 2e-4);
+}
 
-/// Small and distant lights: the density times the solid angle, whose own error is the square of the size in widths of
-/// the lobe, and the roundings of its logarithm: (k + 3) / 2 ln(1 + tan^2) 5e-7 stays below 1e-4.
+/// Small and distant lights: the density times the solid angle, whose own error is the square of the size in
+/// widths of the lobe, and the roundings of its logarithm: (k + 3) / 2 ln(1 + tan^2) 5e-7 stays below 1e-4.
 TEST_P(GlslLobe, SmallLights) {
     for (bool cosines : {false, true}) {
         Pcg32 random(3);
         std::vector<Case> cases;
         for (int i = 0; i < test::tableScale(2000); ++i) {
             Case c = randomCase(random, cosines);
-            const double widths = std::max({c.lobe.a + std::abs(c.lobe.b), c.lobe.c, 1.0 + std::abs(c.lobe.d)}) *
-                                  std::sqrt(c.lobe.k + 3.0);
+            const double widths =
+                std::max({c.lobe.a + std::abs(c.lobe.b), c.lobe.c, 1.0 + std::abs(c.lobe.d)}) *
+                std::sqrt(c.lobe.k + 3.0);
             const double size = glm::length(c.center) * random.logUniform(1e-6, 1e-3) / widths;
             c.u = asFloats(glm::normalize(c.u) * size);
             c.v = asFloats(glm::normalize(c.v) * size);
@@ -231,8 +247,8 @@ TEST_P(GlslLobe, Extremes) {
         c.center = (i % 5 == 0 ? glm::dvec3(0.0) : c.center) * scale;
         c.u *= scale;
         c.v *= scale;
-        if (i % 7 == 0) c.center = -c.u;            // touches the surface with an edge
-        if (i % 11 == 0) c.v = c.u;                 // no area
+        if (i % 7 == 0) c.center = -c.u;  // touches the surface with an edge
+        if (i % 11 == 0) c.v = c.u;       // no area
         if (i % 13 == 0) c.wo = {0.0, 0.0, 1.0};
         if (i % 17 == 0) c.wo = asFloats({std::sqrt(1.0 - 1e-12), 0.0, 1e-6});
         cases.push_back(c);

@@ -1,12 +1,12 @@
 /// Tables of fits: their errors, energy, continuity, extremes, and that they are kept between runs.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <glm/gtc/constants.hpp>
 #include <tuple>
-#include <unistd.h>
 
 #include "fit/area_table.hpp"
 #include "fit/disc_error.hpp"
@@ -70,14 +70,14 @@ TEST_P(FitError, IsWithinItsAim) {
     const TableRequest request = requestFor(aim.model, aim.parameter, aim.value);
     ASSERT_FALSE(refusal(request));
     const auto [to60, to85] = largestErrors(request, makeTable(request));
-    std::printf("%s %s %g: %.2f %% to 60 degrees, %.2f %% to 85\n", aim.model, aim.parameter, aim.value, 100.0 * to60,
-                100.0 * to85);
+    std::printf("%s %s %g: %.2f %% to 60 degrees, %.2f %% to 85\n", aim.model, aim.parameter, aim.value,
+                100.0 * to60, 100.0 * to85);
     EXPECT_LE(to60, aim.to60);
     EXPECT_LE(to85, aim.to85);
 }
 
-/// Relative errors of disc lights of 5 to 40 degrees: 3 % to 60 degrees of view, then 7 % (lobes with Gaussian tails and
-/// cosine powers) or 10 % (GGX) to 85.
+/// Relative errors of disc lights of 5 to 40 degrees: 3 % to 60 degrees of view, then 7 % (lobes with
+/// Gaussian tails and cosine powers) or 10 % (GGX) to 85.
 INSTANTIATE_TEST_SUITE_P(
     , FitError,
     testing::Values(Aim{"ggx", "alphaX", 0.01, 0.03, 0.1}, Aim{"ggx", "alphaX", 0.1, 0.03, 0.1},
@@ -86,13 +86,16 @@ INSTANTIATE_TEST_SUITE_P(
                     Aim{"beckmann_smith", "m", 0.02, 0.03, 0.07}, Aim{"beckmann_smith", "m", 0.1, 0.03, 0.07},
                     Aim{"beckmann_smith", "m", 0.4, 0.03, 0.07}, Aim{"cook_torrance", "m", 0.3, 0.03, 0.07},
                     Aim{"ward", "alpha", 0.15, 0.03, 0.07}, Aim{"ward", "alpha", 0.4, 0.03, 0.07},
-                    Aim{"phong", "shininess", 20.0, 0.03, 0.07}, Aim{"phong", "shininess", 1000.0, 0.03, 0.07},
+                    Aim{"phong", "shininess", 20.0, 0.03, 0.07},
+                    Aim{"phong", "shininess", 1000.0, 0.03, 0.07},
                     Aim{"blinn_phong", "shininess", 20.0, 0.03, 0.07},
                     Aim{"blinn_phong", "shininess", 200.0, 0.03, 0.07}),
-    [](const testing::TestParamInfo<Aim>& aim) { return std::string(aim.param.model) + std::to_string(aim.index); });
+    [](const testing::TestParamInfo<Aim>& aim) {
+        return std::string(aim.param.model) + std::to_string(aim.index);
+    });
 
-/// The part of the fit above the horizon carries the albedo: exactly so at nodes, to the noise of other samples (20000,
-/// which are spread evenly: 3e-3), and nearly so between them.
+/// The part of the fit above the horizon carries the albedo: exactly so at nodes, to the noise of other
+/// samples (20000, which are spread evenly: 3e-3), and nearly so between them.
 TEST(AreaTable, KeepsTheAlbedo) {
     const TableRequest request = requestFor("ggx", "alphaX", 0.3);
     const AreaTable table = makeTable(request);
@@ -102,7 +105,8 @@ TEST(AreaTable, KeepsTheAlbedo) {
             const double oneMinusCos = std::sin(angle) * std::sin(angle);
             const TablePoint point = at(table, oneMinusCos, 1.0);
             double exact = 0.0, fitted = 0.0;
-            for (const TermSample& s : sampleTerms(*request.brdf, request.values, View(oneMinusCos), 20000, 5)) {
+            for (const TermSample& s :
+                 sampleTerms(*request.brdf, request.values, View(oneMinusCos), 20000, 5)) {
                 exact += (s.terms.terms[0].g + s.terms.terms[1].g) / s.density;
                 for (const TableLobe& lobe : point.lobes)
                     fitted += lobe.weight.g * lobe.lobe.density(s.w) / s.density;
@@ -133,8 +137,9 @@ TEST(AreaTable, IsContinuous) {
 /// The narrowest and widest lobes at all angles, to grazing: finite, and weights that no model has.
 TEST(AreaTable, ExtremesStayFinite) {
     for (const auto& [model, parameter, value] :
-         {std::tuple{"ggx", "alphaX", 1e-3}, std::tuple{"ggx", "alphaX", 1.0}, std::tuple{"cook_torrance", "m", 1e-3},
-          std::tuple{"ward", "alpha", 1e-3}, std::tuple{"phong", "shininess", 1e6}}) {
+         {std::tuple{"ggx", "alphaX", 1e-3}, std::tuple{"ggx", "alphaX", 1.0},
+          std::tuple{"cook_torrance", "m", 1e-3}, std::tuple{"ward", "alpha", 1e-3},
+          std::tuple{"phong", "shininess", 1e6}}) {
         const TableRequest request = requestFor(model, parameter, value);
         const AreaTable table = makeTable(request);
         for (float number : table.texels)
@@ -170,8 +175,9 @@ TEST(AreaModel, PartsAddUpToTheModel) {
             const AreaWeights weights = brdf.area->weights(values);
             for (int i = 0; i < 50; ++i) {
                 const double t = 0.1 + 1.4 * i / 50.0;
-                const Directions d({std::sin(t) * std::cos(3.0 * i), std::sin(t) * std::sin(3.0 * i), std::cos(t)},
-                                   {std::sin(1.5 - t), 0.0, std::cos(1.5 - t)});
+                const Directions d(
+                    {std::sin(t) * std::cos(3.0 * i), std::sin(t) * std::sin(3.0 * i), std::cos(t)},
+                    {std::sin(1.5 - t), 0.0, std::cos(1.5 - t)});
                 const AreaTerms terms = brdf.area->parts(d, values);
                 glm::dvec3 sum = weights.lambert * terms.base * d.wi.z / glm::pi<double>();
                 for (size_t k = 0; k < 2; ++k)
