@@ -14,9 +14,19 @@ if(LOBE_PRECOMPILED_HEADERS)
   target_precompile_headers(lobe_precompiled PRIVATE ${LOBE_COMMON_HEADERS})
 endif()
 
+# GCC 12 sees copies of texts that are longer than memory, and no longer takes them for the library's where its headers
+# were parsed before (GCC bugs 105329, 105651).
+function(lobe_quiet_library_warnings target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE
+      $<$<COMPILE_LANGUAGE:CXX>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>)
+  endif()
+endfunction()
+
 function(lobe_precompile target)
   if(LOBE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM lobe_precompiled)
+    lobe_quiet_library_warnings(${target})
   endif()
 endfunction()
 
@@ -24,6 +34,7 @@ endfunction()
 function(lobe_precompile_app target)
   if(LOBE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} PRIVATE ${LOBE_COMMON_HEADERS} <CLI/CLI.hpp>)
+    lobe_quiet_library_warnings(${target})
   endif()
 endfunction()
 
@@ -39,5 +50,6 @@ endfunction()
 function(lobe_precompile_tests target)
   if(LOBE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM lobe_precompiled_tests)
+    lobe_quiet_library_warnings(${target})
   endif()
 endfunction()
