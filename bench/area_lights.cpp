@@ -66,9 +66,9 @@ std::vector<AreaLightTime> areaLightTimes(gl::Context& context, int width, int h
             for (auto& [key, drawing] : drawings)
                 drawing->draw();
         const auto each = [&](LightType type, const std::string& method) {
-            return (drawings.at({type, method, kMany})->milliseconds() -
-                    drawings.at({type, method, kFew})->milliseconds()) *
-                   1e6 / ((kMany - kFew) * static_cast<double>(width) * height);
+            return (drawings.at({type, method, kMany})->seconds() -
+                    drawings.at({type, method, kFew})->seconds()) *
+                   1e9 / ((kMany - kFew) * static_cast<double>(width) * height);
         };
         const double point = each(LightType::point, "analytic");
         for (LightType type : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})

@@ -140,8 +140,6 @@ void runAreaLights(const Settings& settings) {
     writeJson(settings.json, report);
 }
 
-}
-
 void runFog(const Settings& settings) {
     const auto context = gl::Context::create({.backend = gl::parseBackend(settings.backend)});
     std::printf("%s, %s, ns a pixel more than the picture without it, median of %d rounds\n",

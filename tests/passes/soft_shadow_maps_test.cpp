@@ -51,7 +51,7 @@ std::vector<double> drawn(const Scene& scene, const Light& light, const Setting&
     plan.shadows[LightType::sphere] = PlannedShadow::maps;
     ProgramCache programs(shaderLibrary());
     Targets targets(plan, kPixels, kPixels);
-    const BrdfTableBuffer tables(lit);
+    const BrdfTableBuffer tables(lit, plan);
     SurfaceDraws surfaces(lit, plan, capabilities, programs, tables);
     LightBuffers lights(lit, plan);
     ScreenInputs inputs(lit, plan, tables);

@@ -55,6 +55,15 @@ std::set<std::string> defines(const FramePlan& plan) {
     return all;
 }
 
+/// Of the one light pass that there is.
+std::map<std::string, std::string> definesOf(const FramePlan& plan) {
+    std::map<std::string, std::string> all;
+    for (const PlannedPass& pass : plan.passes)
+        for (const Variant& variant : pass.variants)
+            if (pass.name.starts_with("light.")) all.insert(variant.defines.begin(), variant.defines.end());
+    return all;
+}
+
 constexpr LightType kBodies[] = {LightType::rect, LightType::disk, LightType::sphere, LightType::tube};
 
 TEST(BodyLightPlan, AbsentWithoutThem) {
@@ -95,14 +104,51 @@ TEST(BodyLightPlan, ClosedFormWhereThereIsOne) {
     EXPECT_FALSE(defines(lambert).contains("AREA_SAMPLED"));
     EXPECT_EQ(lambert.areaPoints, 0);
     EXPECT_EQ(reasonFor(lambert, "points on lights"), "closed forms need none, and no shadow is soft");
-    const FramePlan phong = planOf(underBody(LightType::disk, "phong"), quality);
-    EXPECT_EQ(phong.areaMethods.at("phong").method, AreaMethod::sampled);
-    EXPECT_FALSE(defines(phong).contains("AREA_ANALYTIC"));
-    EXPECT_TRUE(defines(phong).contains("AREA_SAMPLED"));
-    EXPECT_EQ(phong.areaPoints, quality.lightSamples);
+    EXPECT_EQ(definesOf(lambert).at("LOBE_COUNT"), "0");
+    const FramePlan he = planOf(underBody(LightType::disk, "he"), quality);
+    EXPECT_EQ(he.areaMethods.at("he").method, AreaMethod::sampled);
+    EXPECT_EQ(he.areaMethods.at("he").reason, "by points on each: no fit serves its lobe");
+    EXPECT_FALSE(defines(he).contains("AREA_ANALYTIC"));
+    EXPECT_TRUE(defines(he).contains("AREA_SAMPLED"));
+    EXPECT_EQ(he.areaPoints, quality.lightSamples);
     quality.areaLights = AreaLights::sampled;
     EXPECT_EQ(planOf(underBody(LightType::disk), quality).areaMethods.at("lambert").method,
               AreaMethod::sampled);
+}
+
+TEST(BodyLightPlan, FitsTakeWhatTheMaterialsLeaveOpen) {
+    Quality quality;
+    quality.shadows = Shadows::none;
+    Scene scene = underBody(LightType::rect, "phong");
+    const FramePlan plain = planOf(scene, quality);
+    EXPECT_EQ(plain.areaMethods.at("phong").method, AreaMethod::analytic);
+    EXPECT_EQ(definesOf(plain).at("LOBE_COUNT"), "2");
+    EXPECT_EQ(definesOf(plain).at("LOBE_WEIGHTS(w)"), "vec3(1.0), vec3(1.0)") << "colours are in the table";
+    EXPECT_FALSE(defines(plain).contains("LOBE_WIDTHS"));
+    EXPECT_FALSE(defines(plain).contains("AREA_SAMPLED"));
+    EXPECT_EQ(plain.areaPoints, 0);
+
+    // A second material of another colour, then of another width, then of another form.
+    scene.materials.push_back(scene.materials.front());
+    scene.primitives.push_back(scene.primitives.front());
+    scene.primitives.back().material = static_cast<int>(scene.materials.size()) - 1;
+    scene.instances.push_back(scene.instances.front());
+    scene.instances.back().primitive = static_cast<int>(scene.primitives.size()) - 1;
+    const Brdf& brdf = requireBrdf("phong");
+    const auto valueAt = [&](const char* name) -> double& {
+        return scene.materials.back()
+            .values[static_cast<size_t>(brdf.valueOffset(brdf.parameterIndex(name)))];
+    };
+    valueAt("specular") = 0.125;
+    const FramePlan colours = planOf(scene, quality);
+    EXPECT_EQ(definesOf(colours).at("LOBE_WEIGHTS(w)"), "w.first, w.second");
+    EXPECT_FALSE(defines(colours).contains("LOBE_WIDTHS"));
+    valueAt("shininess") = 5.0;
+    EXPECT_TRUE(defines(planOf(scene, quality)).contains("LOBE_WIDTHS"));
+    valueAt("normalization") = 1.0 - valueAt("normalization");
+    const FramePlan forms = planOf(scene, quality);
+    EXPECT_EQ(forms.areaMethods.at("phong").method, AreaMethod::sampled);
+    EXPECT_EQ(forms.areaMethods.at("phong").reason, "by points on each: its normalization varies");
 }
 
 TEST(BodyLightPlan, RaysOnlyForShadows) {
