@@ -27,7 +27,8 @@ Quality unshadowed() {
 }
 
 Image drawn(Renderer& renderer, const Scene& scene, const Camera& camera, const Quality& quality) {
-    renderer.setScene(std::make_shared<Scene>(scene), smallPicture(quality));
+    renderer.setScene(std::make_shared<Scene>(scene),
+                      smallPicture(quality, {Aov::radiance}, quality.shadows));
     return renderer.render(camera).image;
 }
 
@@ -187,6 +188,7 @@ TEST(ShadowMaps, NoPlaneShadowsItself) {
             for (const int taps : {1, 9, 64}) {
                 scene.lights = {light};
                 const Image with = drawn(renderer, scene, camera, mapped(taps));
+                ASSERT_NE(renderer.plan().pass("shadow.maps"), nullptr);
                 const Image without = drawn(renderer, scene, camera, unshadowed());
                 EXPECT_EQ(with.values, without.values)
                     << "plane " << i << ", " << glm::degrees(angle) << " degrees, type "
