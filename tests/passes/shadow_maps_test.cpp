@@ -161,7 +161,7 @@ TEST(ShadowMaps, NoPlaneShadowsItself) {
     Renderer renderer(eglContext());
     std::mt19937 engine(3);
     std::uniform_real_distribution<> uniform(-1.0, 1.0);
-    for (int i = 0; i < 48; ++i) {
+    for (int i = 0; i < 24; ++i) {
         Scene scene;
         const int quad = addQuad(scene, addMaterial(scene, "lambert"), 1.0f);
         const glm::dmat4 turn =
