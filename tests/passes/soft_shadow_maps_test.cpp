@@ -228,12 +228,12 @@ TEST(SoftShadowMaps, PictureIsNearTheOneByRays) {
     Quality quality{.samples = 4, .gbufferBits = 32};
     quality.shadowMethod = ShadowMethod::maps;
     quality.shadowSize = 1024;
-    const Image maps = render(scene, camera, smallPicture(quality));
+    const Image maps = render(scene, camera, smallPicture(quality, {Aov::radiance}, quality.shadows));
     quality.shadowMethod = ShadowMethod::rays;
     quality.lightSamples = 64;
-    const Image rays = render(scene, camera, smallPicture(quality));
+    const Image rays = render(scene, camera, smallPicture(quality, {Aov::radiance}, quality.shadows));
     quality.shadows = Shadows::none;
-    const Image unshadowed = render(scene, camera, smallPicture(quality));
+    const Image unshadowed = render(scene, camera, smallPicture(quality, {Aov::radiance}, quality.shadows));
     double off = 0.0, shadow = 0.0;
     for (int i = 0; i < 96 * 64; ++i) {
         const auto green = [i](const Image& image) {
