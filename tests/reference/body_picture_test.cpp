@@ -187,6 +187,8 @@ TEST_P(BodyPicture, ShadowedAgreesWithTheReference) {
     const auto truths = truth(made, true, 5e-3);
     Quality quality = exact();
     quality.shadows = Shadows::soft;
+    // What fits are off by is tested by itself (tests/fit); here it would hide what shadows are.
+    if (std::string(std::get<1>(GetParam())) != "lambert") quality.areaLights = AreaLights::sampled;
     double before = 0.0;
     for (int points : {4, 64}) {
         quality.lightSamples = points;
