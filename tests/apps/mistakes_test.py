@@ -122,7 +122,7 @@ class Mistakes(LobeTest):
 
     def test_non_finite_pixels_exit_with_6_and_are_written(self):
         planted = self.shaders_with("pass/light.frag", lambda text: text.replace(
-            "0.0);\n}", "0.0);\n    if (gl_FragCoord.x < 33.0 && gl_FragCoord.x > 32.0) oRadiance.y = uintBitsToFloat(0x7fc00000u);\n}"))
+            "light_alpha(0.0));\n", "light_alpha(0.0));\n    if (gl_FragCoord.x < 33.0 && gl_FragCoord.x > 32.0) oRadiance.y = uintBitsToFloat(0x7fc00000u);\n"))
         result = self.render("-o", "n.exr", "--anti-aliasing=none", "--json", expect=6, env=planted)
         self.assertGreater(json.loads(result.stdout)["non_finite_pixels"], 10)
         self.assertIn("NaN or infinite", result.stderr)
