@@ -37,7 +37,12 @@ Brdf thin_transmission() {
         "Khronos, KHR_materials_transmission; and as metallic_roughness, which it is for a transmission of 0";
     brdf.parameters.push_back(
         scalarParameter("transmission", 0.0, 0.0, 1.0, "share of the diffuse base that lets light through"));
-    brdf.area.reset();  // its diffuse base varies by the transmission: points on lights with a body
+    brdf.area->colors.emplace_back("transmission");
+    brdf.area->weights = [](std::span<const double> values) {
+        AreaWeights weights = base.area->weights(surfaceOf(values));
+        weights.lambert *= 1.0 - values[kTransmission];
+        return weights;
+    };
     brdf.fCos = [](const Directions& d, std::span<const double> values) {
         if (!aboveSurface(d)) return glm::dvec3(0.0);
         return base.fCos(d, surfaceOf(values)) - values[kTransmission] * diffuse(d, values);

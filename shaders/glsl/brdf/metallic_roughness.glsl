@@ -34,7 +34,10 @@ float metallic_roughness_lobe(Dirs d, float alpha)
     return INV_TWO_PI * u * u / (masking_o + d.wo.z / d.wi.z * masking_i);
 }
 
-vec3 metallic_roughness_f_cos(Dirs d, MetallicRoughnessParams p)
+/// f_r cos(theta_i) of the base and of the lobe above it.
+struct MetallicRoughnessParts { vec3 diffuse, specular; };
+
+MetallicRoughnessParts metallic_roughness_parts(Dirs d, MetallicRoughnessParams p)
 {
     float alpha = max(p.roughness * p.roughness, METALLIC_ROUGHNESS_MIN_ALPHA);
     // The max keeps compilers from seeing a mix here: as a + m (b - a) it would leave a dark metal 0.04 2^-24 of noise.
@@ -49,8 +52,14 @@ vec3 metallic_roughness_f_cos(Dirs d, MetallicRoughnessParams p)
     vec3 fresnel = f0 + f90_minus_f0 * (w2 * w2 * w);
     vec3 transmitted = f90_minus_f0 * (vh * (1.0 + w * (1.0 + w * (1.0 + w * (1.0 + w)))));  // 1 - fresnel
 
-    vec3 diffuse = transmitted * p.base_color * (dielectric * INV_PI * d.wi.z);
-    vec3 f = diffuse + fresnel * metallic_roughness_lobe(d, alpha);
+    return MetallicRoughnessParts(transmitted * p.base_color * (dielectric * INV_PI * d.wi.z),
+                                  fresnel * metallic_roughness_lobe(d, alpha));
+}
+
+vec3 metallic_roughness_f_cos(Dirs d, MetallicRoughnessParams p)
+{
+    MetallicRoughnessParts parts = metallic_roughness_parts(d, p);
+    vec3 f = parts.diffuse + parts.specular;
     return d.wi.z > 0.0 && d.wo.z > 0.0 ? f : vec3(0.0);
 }
 

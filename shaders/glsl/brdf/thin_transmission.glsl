@@ -16,22 +16,15 @@
 
 struct ThinTransmissionParams { vec3 base_color; float metallic; float roughness; float transmission; };
 
+MetallicRoughnessParams thin_transmission_surface(ThinTransmissionParams p)
+{
+    return MetallicRoughnessParams(p.base_color, p.metallic, p.roughness);
+}
+
 vec3 thin_transmission_f_cos(Dirs d, ThinTransmissionParams p)
 {
-    float alpha = max(p.roughness * p.roughness, METALLIC_ROUGHNESS_MIN_ALPHA);
-    float dielectric = max(1.0 - p.metallic, 0.0);
-    vec3 f0 = 0.04 * dielectric + p.base_color * p.metallic;
-    vec3 f90_minus_f0 = 0.96 * dielectric + (1.0 - p.base_color) * p.metallic;
-
-    vec3 s = d.wi - d.wo;
-    float vh = min(0.5 * sqrt(dot(d.h, d.h)), 1.0);
-    float w = min(0.25 * dot(s, s) / (1.0 + vh), 1.0);  // 1 - vh
-    float w2 = w * w;
-    vec3 fresnel = f0 + f90_minus_f0 * (w2 * w2 * w);
-    vec3 refracted = f90_minus_f0 * (vh * (1.0 + w * (1.0 + w * (1.0 + w * (1.0 + w)))));  // 1 - fresnel
-
-    vec3 diffuse = refracted * p.base_color * (dielectric * max(1.0 - p.transmission, 0.0) * INV_PI * d.wi.z);
-    vec3 f = diffuse + fresnel * metallic_roughness_lobe(d, alpha);
+    MetallicRoughnessParts parts = metallic_roughness_parts(d, thin_transmission_surface(p));
+    vec3 f = parts.diffuse * max(1.0 - p.transmission, 0.0) + parts.specular;
     return d.wi.z > 0.0 && d.wo.z > 0.0 ? f : vec3(0.0);
 }
 
@@ -49,4 +42,11 @@ vec3 thin_transmission_transmittance(float cosine, ThinTransmissionParams p)
     float w = 1.0 - v;
     float refracted = 0.96 * v * (1.0 + w * (1.0 + w * (1.0 + w * (1.0 + w))));  // 1 - F
     return p.base_color * (max(1.0 - p.metallic, 0.0) * p.transmission * refracted);
+}
+
+AreaWeights thin_transmission_area(ThinTransmissionParams p)
+{
+    AreaWeights weights = metallic_roughness_area(thin_transmission_surface(p));
+    weights.lambert *= max(1.0 - p.transmission, 0.0);
+    return weights;
 }
