@@ -59,23 +59,21 @@ public:
         for (const std::string& open : chain_)
             if (open == found.name)
                 throw ShaderError(from + ": " + found.name + " includes itself, by way of " + chain_.back());
-        if (!taken_.insert(found.name).second) return;
-        chain_.push_back(found.name);
+        if (taken_.contains(found.name)) return;
         if (!found.path.empty()) out_.files.push_back(found.path);
-        std::istringstream lines(found.text);
-        std::string line;
-        for (int number = 1; std::getline(lines, line); ++number) {
-            if (!line.empty() && line.back() == '\r') line.pop_back();
-            const std::string place = found.name + ":" + std::to_string(number);
-            const Directive directive = inComment_ ? Directive{} : directiveIn(line);
-            if (directive.word == "include")
-                expand(includedBy(line, directive, place), place, found.folder);
-            else if (!ofFiles_ || !hoist(directive, line, found.name, number))
-                emit(line, found.name, number);
-            inComment_ = commentAfter(line);
-        }
-        if (inComment_) throw ShaderError(found.name + ": a block comment is not closed");
-        chain_.pop_back();
+        // Whether a file under #if was taken in is for the preprocessor to say.
+        const bool perhaps = conditions_ > 0;
+        if (!perhaps) taken_.insert(found.name);
+        const bool guarded = perhaps || perhapsTaken_.contains(found.name);
+        if (!guarded) return lines(found);
+        const auto guard = perhapsTaken_.try_emplace(found.name, perhapsTaken_.size()).first->second;
+        const std::string macro = "LOBE_TAKEN_" + std::to_string(guard);
+        emit("#ifndef " + macro, found.name, 1);
+        emit("#define " + macro, found.name, 1);
+        ++conditions_;
+        lines(found);
+        --conditions_;
+        emit("#endif", found.name, 1);
     }
 
     /// Puts the version, the extensions and the defines before what was expanded.
@@ -100,6 +98,25 @@ private:
         fs::path folder;  ///< that its own includes are looked for in first
         fs::path path;    ///< empty if generated or mounted
     };
+
+    void lines(const Found& found) {
+        chain_.push_back(found.name);
+        std::istringstream lines(found.text);
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            if (!line.empty() && line.back() == '\r') line.pop_back();
+            const std::string place = found.name + ":" + std::to_string(number);
+            const Directive directive = inComment_ ? Directive{} : directiveIn(line);
+            if (directive.word == "include")
+                expand(includedBy(line, directive, place), place, found.folder);
+            else if (!ofFiles_ || !hoist(directive, line, found.name, number))
+                emit(line, found.name, number);
+            conditions_ += directive.word.starts_with("if") ? 1 : directive.word == "endif" ? -1 : 0;
+            inComment_ = commentAfter(line);
+        }
+        if (inComment_) throw ShaderError(found.name + ": a block comment is not closed");
+        chain_.pop_back();
+    }
 
     Found find(const std::string& name, const std::string& from, const fs::path& folder) const {
         const fs::path normal = fs::path(name).lexically_normal();
@@ -215,7 +232,9 @@ private:
     const std::map<std::string, std::string>& generated_;
     const std::map<std::string, ShaderLibrary::Mounted>& mounted_;
     ShaderSource& out_;
-    std::set<std::string> taken_;
+    std::set<std::string> taken_;                 ///< for certain
+    std::map<std::string, size_t> perhapsTaken_;  ///< under some #if -> number of its guard
+    int conditions_ = 0;                          ///< #if that are open
     std::vector<std::string> chain_;
     std::vector<std::pair<std::string, ShaderSource::Place>> extensions_;
     int version_ = kVersion;

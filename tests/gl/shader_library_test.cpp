@@ -68,6 +68,22 @@ TEST_F(ShaderLibraryTest, PutsVersionDefinesAndIncludesInOrderWithTheirPlaces) {
                                      "brdf/b.glsl:2 float c;", "pass/a.frag:2 void main() {}"));
 }
 
+TEST_F(ShaderLibraryTest, AFileUnderAConditionIsTakenWhereverItMayBeMissing) {
+    write("main.frag",
+          "#ifdef A\n#include \"a.glsl\"\n#endif\n#include \"b.glsl\"\n#include \"shared.glsl\"\n");
+    write("a.glsl", "#include \"shared.glsl\"\na\n");
+    write("b.glsl", "#include \"shared.glsl\"\nb\n");
+    write("shared.glsl", "shared\n");
+    EXPECT_THAT(placed(source("main.frag")),
+                testing::ElementsAre(
+                    "(version):1 #version 330 core", "main.frag:1 #ifdef A", "a.glsl:1 #ifndef LOBE_TAKEN_0",
+                    "a.glsl:1 #define LOBE_TAKEN_0", "shared.glsl:1 #ifndef LOBE_TAKEN_1",
+                    "shared.glsl:1 #define LOBE_TAKEN_1", "shared.glsl:1 shared", "shared.glsl:1 #endif",
+                    "a.glsl:2 a", "a.glsl:1 #endif", "main.frag:3 #endif",
+                    "shared.glsl:1 #ifndef LOBE_TAKEN_1", "shared.glsl:1 #define LOBE_TAKEN_1",
+                    "shared.glsl:1 shared", "shared.glsl:1 #endif", "b.glsl:2 b"));
+}
+
 TEST_F(ShaderLibraryTest, TakesEachFileOnceAlsoWhenTwoIncludeIt) {
     write("main.frag", "#include \"left.glsl\"\n#include \"right.glsl\"\n#include \"left.glsl\"\n");
     write("left.glsl", "#include \"shared.glsl\"\nleft\n");

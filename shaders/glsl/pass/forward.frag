@@ -3,9 +3,6 @@
 /// Radiance is multiplied by coverage here. What lies behind is multiplied by 1 - alpha, or, with COLORED_TRANSMITTANCE,
 /// by the second output; that one takes a program for each target, of which OUT_... names the one. PEELED: only the
 /// fragments of one layer.
-// First, where no define can leave them out: a file is taken in once.
-#include "common/constants.glsl"
-#include "common/numeric.glsl"
 #ifdef PEELED
 #include "pass/peel.glsl"
 #endif

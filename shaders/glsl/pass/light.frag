@@ -1,9 +1,6 @@
 /// light.frag - adds the light of one type, reflected by the surfaces of one model.
 ///
 /// The defines name the type (DIRECTIONAL_LIGHTS, POINT_LIGHTS, ...); pixels of other models are masked by stencil.
-// First, where no define can leave them out: a file is taken in once.
-#include "common/constants.glsl"
-#include "common/numeric.glsl"
 #include "pass/gbuffer_read.glsl"
 #include "generated/material.glsl"
 #include "pass/lights.glsl"
