@@ -17,10 +17,7 @@ void LightPass::prepare() {
 }
 
 void LightPass::run(const View& view) {
-    static constexpr const char* kNames[] = {"Directional", "Point", "Spot"};
-    const std::string name = kNames[static_cast<size_t>(type_)];
-    const std::string channel = planned_.writes.front();
-    glBindFramebuffer(GL_FRAMEBUFFER, targets().lighting(channel));
+    glBindFramebuffer(GL_FRAMEBUFFER, targets().lighting(planned_.writes.front()));
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     for (const Variant& variant : planned_.variants) {
@@ -29,27 +26,50 @@ void LightPass::run(const View& view) {
         shader.use();
         int unit = resources().inputs.bind(shader, targets(), view, brdf);
         unit = resources().rays.bind(shader, unit, view);
-        resources().lights.bind(shader, unit);
+        unit = resources().lights.bind(shader, unit);
+        resources().bodies.bind(shader, unit, plan().areaPoints);
         resources().shadowMaps.bind(shader);
         resources().inputs.setMask(&brdf);
-        if (variant.defines.contains("TILES")) {
-            const LightBuffers& lights = resources().lights;
-            if (lights.tileCount(type_) > 0)
-                resources().inputs.drawTiles(shader, targets(), lights.tileArray(type_),
-                                             lights.tileCount(type_));
-            continue;
-        }
-        const int count = resources().lights.globalCount(type_);
-        const int each =
-            plan().shadowOf(type_) == PlannedShadow::rays ? kLightsPerDrawOfRays : kLightsPerDraw;
-        for (int first = 0; first < count; first += each) {
-            shader.set("u" + name + "First", first);
-            shader.set("u" + name + "End", std::min(count, first + each));
-            resources().inputs.drawScreen(shader);
-        }
+        draw(variant, shader);
     }
     resources().inputs.clearMask();
     glDisable(GL_BLEND);
+}
+
+void PunctualLightPass::draw(const Variant& variant, const gl::Program& shader) const {
+    static constexpr const char* kNames[] = {"Directional", "Point", "Spot"};
+    const LightBuffers& lights = resources().lights;
+    if (variant.defines.contains("TILES")) {
+        if (lights.tileCount(type_) > 0)
+            resources().inputs.drawTiles(shader, targets(), lights.tileArray(type_), lights.tileCount(type_));
+        return;
+    }
+    const std::string name = kNames[static_cast<size_t>(type_)];
+    const int count = lights.globalCount(type_);
+    const int each = plan().shadowOf(type_) == PlannedShadow::rays ? kLightsPerDrawOfRays : kLightsPerDraw;
+    for (int first = 0; first < count; first += each) {
+        shader.set("u" + name + "First", first);
+        shader.set("u" + name + "End", std::min(count, first + each));
+        resources().inputs.drawScreen(shader);
+    }
+}
+
+void BodyLightPass::draw(const Variant& variant, const gl::Program& shader) const {
+    if (variant.defines.contains("MIRRORED_LIGHTS")) return resources().inputs.drawScreen(shader);
+    const bool rays =
+        variant.defines.contains("AREA_SHADOWS") || variant.defines.contains("AREA_HARD_SHADOWS");
+    const int most = rays ? kRaysPerDraw : kPointsPerDraw;
+    const int points = variant.defines.contains("AREA_SAMPLED") ? plan().areaPoints : 1;
+    const int pointsEach = std::min(points, most);
+    const int lightsEach = most / pointsEach;
+    const int count = resources().bodies.count(type_);
+    for (int first = 0; first < count; first += lightsEach) {
+        BodyLights::setLights(shader, type_, first, std::min(count, first + lightsEach));
+        for (int from = 0; from < points; from += pointsEach) {
+            BodyLights::setPoints(shader, from, std::min(points, from + pointsEach), points);
+            resources().inputs.drawScreen(shader);
+        }
+    }
 }
 
 }  // namespace lobe

@@ -12,9 +12,27 @@ public:
     void prepare() override;
     void run(const View& view) override;
 
+protected:
+    /// One model's pixels, in as many draws as the lights need. The program is in use, all but the range of
+    /// lights set.
+    virtual void draw(const Variant& variant, const gl::Program& shader) const = 0;
+    const LightType type_;
+
 private:
     const gl::Program& program(const Variant& variant) const;
-    LightType type_;
+};
+
+/// Lights without extent.
+class PunctualLightPass : public LightPass {
+    using LightPass::LightPass;
+    void draw(const Variant& variant, const gl::Program& shader) const override;
+};
+
+/// Lights with a body. Draws are split by lights and by points on them, so that no loop of a shader is too
+/// long.
+class BodyLightPass : public LightPass {
+    using LightPass::LightPass;
+    void draw(const Variant& variant, const gl::Program& shader) const override;
 };
 
 }  // namespace lobe

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "passes/body_light_pass.hpp"
 #include "passes/fog_passes.hpp"
 #include "passes/forward_pass.hpp"
 #include "passes/gbuffer_pass.hpp"
@@ -16,14 +15,12 @@ std::unique_ptr<Pass> makePass(const PlannedPass& planned, FrameResources& resou
     if (planned.name == "shadow.maps") return std::make_unique<ShadowMapPass>(planned, resources);
     if (planned.name == "gbuffer") return std::make_unique<GbufferPass>(planned, resources);
     if (planned.name == "coverage") return std::make_unique<CoveragePass>(planned, resources);
-    if (planned.name == "light.directional")
-        return std::make_unique<LightPass>(planned, resources, LightType::directional);
-    if (planned.name == "light.point")
-        return std::make_unique<LightPass>(planned, resources, LightType::point);
-    if (planned.name == "light.spot") return std::make_unique<LightPass>(planned, resources, LightType::spot);
-    for (LightType body : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
-        if (planned.name == std::string("light.") + nameOf(body))
-            return std::make_unique<BodyLightPass>(planned, resources, body);
+    for (LightType type : {LightType::directional, LightType::point, LightType::spot})
+        if (planned.name == std::string("light.") + nameOf(type))
+            return std::make_unique<PunctualLightPass>(planned, resources, type);
+    for (LightType type : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
+        if (planned.name == std::string("light.") + nameOf(type))
+            return std::make_unique<BodyLightPass>(planned, resources, type);
     if (planned.name == "fog") return std::make_unique<FogPass>(planned, resources);
     if (planned.name == "airlight") return std::make_unique<AirlightPass>(planned, resources);
     if (planned.name == "dim") return std::make_unique<DimPass>(planned, resources);

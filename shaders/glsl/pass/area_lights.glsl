@@ -45,7 +45,7 @@ float area_center_visible(AreaLight light, LightReceiver r)
 
 #ifdef AREA_MAP_SHADOWS
 /// `area`: of the light from the front, m^2.
-float area_map_visible(int first, AreaLight light, LightReceiver r, float area)
+float area_map_visible_of(int first, AreaLight light, LightReceiver r, float area)
 {
 #ifdef AREA_POINT_SHADOWS
     area = 0.0;
@@ -120,32 +120,27 @@ vec3 area_arriving(AreaTally tally, vec3 whole)
 
 #ifdef RECT_LIGHTS
 uniform samplerBuffer uRectLights;
-#ifdef AREA_MAP_SHADOWS
-uniform int uShadowRect;
-#endif
 uniform int uRectFirst, uRectEnd;
 #endif
 #ifdef DISK_LIGHTS
 uniform samplerBuffer uDiskLights;
-#ifdef AREA_MAP_SHADOWS
-uniform int uShadowDisk;
-#endif
 uniform int uDiskFirst, uDiskEnd;
 #endif
 #ifdef SPHERE_LIGHTS
 uniform samplerBuffer uSphereLights;
-#ifdef AREA_MAP_SHADOWS
-uniform int uShadowSphere;
-#endif
 uniform int uSphereFirst, uSphereEnd;
 #endif
 #ifdef TUBE_LIGHTS
 uniform samplerBuffer uTubeLights;
-#ifdef AREA_MAP_SHADOWS
-uniform int uShadowTube;
-#endif
 uniform int uTubeFirst, uTubeEnd;
 #endif
+#ifdef AREA_MAP_SHADOWS
+uniform int uShadowRect, uShadowDisk, uShadowSphere, uShadowTube;  // first record of the type's maps
+#endif
+
+// Types by number. Functions that ask for one are called with a constant, so that compilers keep that type's part alone;
+// defines leave out what a scene has none of where they are called.
+const int AREA_RECT = 0, AREA_DISK = 1, AREA_SPHERE = 2, AREA_TUBE = 3;
 
 #ifdef MIRRORED_LIGHTS
 #include "light/area_ray.glsl"
@@ -153,46 +148,47 @@ uniform int uTubeFirst, uTubeEnd;
 /// The nearest light with a body on a ray so far.
 struct AreaNearest { float distance; vec3 radiance; float slot; int type; };
 
-void area_offer(inout AreaNearest nearest, float distance, AreaLight light, int type)
+/// Distance at which a ray meets the light.
+float area_ray(int type, AreaLight l, vec3 direction)
 {
-    if (distance < nearest.distance)
-        nearest = AreaNearest(distance, light.radiance, light.slot, type);
+    if (type == AREA_RECT)
+        return area_rect_ray(l.center, l.facing, l.axis, l.a, l.b, direction);
+    if (type == AREA_DISK)
+        return area_disk_ray(l.center, l.facing, l.a, direction);
+    if (type == AREA_SPHERE)
+        return area_sphere_ray(l.center, l.a, direction);
+    return area_tube_ray(l.center, l.axis * l.a, l.b, direction);
 }
 
-/// What an ideal mirror shows: the nearest body that the mirrored ray meets, if it is of a type that MIRRORED_TYPE names
-/// (-1: of any; else in the order rect, disk, sphere, tube).
+void area_offer(inout AreaNearest nearest, int type, samplerBuffer lights, int first, int end, LightReceiver r,
+                vec3 direction)
+{
+    int i = first;
+    do {
+        AreaLight light = area_light(lights, i, r);
+        float distance = area_ray(type, light, direction);
+        if (distance < nearest.distance)
+            nearest = AreaNearest(distance, light.radiance, light.slot, type);
+    } while (++i < end);
+}
+
+/// What an ideal mirror shows: the nearest body that the mirrored ray meets, if it is of the type MIRRORED_TYPE (-1: of
+/// any).
 vec3 mirrored_lights(LightReceiver r, MODEL_PARAMS params)
 {
     vec3 direction = normalize(2.0 * r.wo.z * r.frame.n - r.wo_w);
     AreaNearest nearest = AreaNearest(AREA_MISSED, vec3(0.0), -1.0, -1);
-    int i = 0;
 #ifdef RECT_LIGHTS
-    i = uRectFirst;
-    do {
-        AreaLight l = area_light(uRectLights, i, r);
-        area_offer(nearest, area_rect_ray(l.center, l.facing, l.axis, l.a, l.b, direction), l, 0);
-    } while (++i < uRectEnd);
+    area_offer(nearest, AREA_RECT, uRectLights, uRectFirst, uRectEnd, r, direction);
 #endif
 #ifdef DISK_LIGHTS
-    i = uDiskFirst;
-    do {
-        AreaLight l = area_light(uDiskLights, i, r);
-        area_offer(nearest, area_disk_ray(l.center, l.facing, l.a, direction), l, 1);
-    } while (++i < uDiskEnd);
+    area_offer(nearest, AREA_DISK, uDiskLights, uDiskFirst, uDiskEnd, r, direction);
 #endif
 #ifdef SPHERE_LIGHTS
-    i = uSphereFirst;
-    do {
-        AreaLight l = area_light(uSphereLights, i, r);
-        area_offer(nearest, area_sphere_ray(l.center, l.a, direction), l, 2);
-    } while (++i < uSphereEnd);
+    area_offer(nearest, AREA_SPHERE, uSphereLights, uSphereFirst, uSphereEnd, r, direction);
 #endif
 #ifdef TUBE_LIGHTS
-    i = uTubeFirst;
-    do {
-        AreaLight l = area_light(uTubeLights, i, r);
-        area_offer(nearest, area_tube_ray(l.center, l.axis * l.a, l.b, direction), l, 3);
-    } while (++i < uTubeEnd);
+    area_offer(nearest, AREA_TUBE, uTubeLights, uTubeFirst, uTubeEnd, r, direction);
 #endif
     vec3 shown = nearest.radiance * model_mirror(r.wo.z, dot(r.wo.xy, r.wo.xy), params);
 #ifdef AREA_SHADOWS
@@ -202,16 +198,48 @@ vec3 mirrored_lights(LightReceiver r, MODEL_PARAMS params)
     return shows ? shown : vec3(0.0);
 }
 #else
-#ifdef RECT_LIGHTS
 #ifdef AREA_SAMPLED
-AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
+/// A light as the surface sees it; only its own type's part is set.
+struct AreaView {
+    AreaRectView rect;
+    AreaDiskView disk;
+    AreaSphereView sphere;
+    AreaTubeView tube;
+};
+
+AreaView area_view(int type, AreaLight l)
 {
-    AreaRectView view = area_rect_view(light.center, light.facing, light.axis, light.a, light.b);
-    uvec2 shift = area_shift(i, 0);
+    AreaView v;
+    if (type == AREA_RECT)
+        v.rect = area_rect_view(l.center, l.facing, l.axis, l.a, l.b);
+    if (type == AREA_DISK)
+        v.disk = area_disk_view(l.center, l.facing, l.a);
+    if (type == AREA_SPHERE)
+        v.sphere = area_sphere_view(l.center, l.a);
+    if (type == AREA_TUBE)
+        v.tube = area_tube_view(l.center, l.axis * l.a, l.b);
+    return v;
+}
+
+AreaSample area_sample(int type, AreaView v, vec2 u)
+{
+    if (type == AREA_RECT)
+        return area_rect_sample(v.rect, area_folded(u));
+    if (type == AREA_DISK)
+        return area_disk_sample(v.disk, area_folded_polar(u));
+    if (type == AREA_SPHERE)
+        return area_sphere_sample(v.sphere, area_folded_polar(u));
+    return area_tube_sample(v.tube, area_folded(u));
+}
+
+AreaTally area_points(int type, int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
+{
+    AreaView view = area_view(type, light);
+    uvec2 shift = area_shift(i, type);
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
     do
-        area_count(tally, area_rect_sample(view, area_folded(area_point(shift, point))), light, r, params);
+        area_count(tally, area_sample(type, view, area_point(shift, point)), light, r, params);
     while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
@@ -219,7 +247,7 @@ AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
     tally.lit = vec3(0.0);
     point = 0;
     do {
-        AreaSample s = area_rect_sample(view, area_folded(area_point(shift, point)));
+        AreaSample s = area_sample(type, view, area_point(shift, point));
         tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
     } while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
@@ -228,207 +256,60 @@ AreaTally rect_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS para
 }
 #endif
 
-vec3 rect_light(int i, LightReceiver r, MODEL_PARAMS params)
+#ifdef AREA_ANALYTIC
+vec3 area_reflected(int type, AreaLight light, LightReceiver r)
 {
-    AreaLight light = area_light(uRectLights, i, r);
+    if (type == AREA_RECT)
+        return area_reflected_rect(light, r);
+    if (type == AREA_DISK)
+        return area_reflected_disk(light, r);
+    if (type == AREA_SPHERE)
+        return area_reflected_sphere(light, r);
+    return area_reflected_tube(light, r);
+}
+#endif
+
+#ifdef AREA_MAP_SHADOWS
+float area_map_visible(int type, AreaLight light, LightReceiver r)
+{
+    if (type == AREA_RECT)
+        return area_map_visible_of(uShadowRect, light, r, 4.0 * light.a * light.b);
+    if (type == AREA_DISK)
+        return area_map_visible_of(uShadowDisk, light, r, PI * light.a * light.a);
+    if (type == AREA_SPHERE)
+        return area_map_visible_of(uShadowSphere, light, r, PI * light.a * light.a);
+    return area_map_visible_of(uShadowTube, light, r, (4.0 * light.a + PI * light.b) * light.b);
+}
+#endif
+
+vec3 area_arrives(int type, int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
+{
 #if defined(AREA_SAMPLED) && defined(AREA_ANALYTIC)
-    vec3 reflected = area_arriving(rect_points(i, light, r, params), area_reflected_rect(light, r, params));
+    vec3 reflected = area_arriving(area_points(type, i, light, r, params), area_reflected(type, light, r));
 #elif defined(AREA_SAMPLED)
-    vec3 reflected = rect_points(i, light, r, params).seen / float(uAreaPointsAll);
+    vec3 reflected = area_points(type, i, light, r, params).seen / float(uAreaPointsAll);
 #else
-    vec3 reflected = area_reflected_rect(light, r, params);
+    vec3 reflected = area_reflected(type, light, r);
 #endif
 #ifdef AREA_HARD_SHADOWS
     reflected *= area_center_visible(light, r);
 #endif
 #ifdef AREA_MAP_SHADOWS
-    reflected *= area_map_visible(uShadowRect, light, r, 4.0 * light.a * light.b);
+    reflected *= area_map_visible(type, light, r);
 #endif
     return light.radiance * reflected;
 }
 
-vec3 rect_lights(LightReceiver r, MODEL_PARAMS params)
+vec3 area_sum(int type, samplerBuffer lights, int first, int end, LightReceiver r, MODEL_PARAMS params)
 {
     vec3 sum = vec3(0.0);
-    int i = uRectFirst;
+    int i = first;
     do
-        sum += rect_light(i, r, params);
-    while (++i < uRectEnd);
-    light_loop_ended(i >= uRectEnd);
+        sum += area_arrives(type, i, area_light(lights, i, r), r, params);
+    while (++i < end);
+    light_loop_ended(i >= end);
     return sum;
 }
-#endif
-
-#ifdef DISK_LIGHTS
-#ifdef AREA_SAMPLED
-AreaTally disk_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
-{
-    AreaDiskView view = area_disk_view(light.center, light.facing, light.a);
-    uvec2 shift = area_shift(i, 1);
-    AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
-    int point = uAreaPointsFirst;
-    do
-        area_count(tally, area_disk_sample(view, area_folded_polar(area_point(shift, point))), light, r, params);
-    while (++point < uAreaPointsEnd);
-    light_loop_ended(point >= uAreaPointsEnd);
-#ifdef AREA_SPLIT
-    // Other draws count the rest of what arrives; what is lit is that of all points.
-    tally.lit = vec3(0.0);
-    point = 0;
-    do {
-        AreaSample s = area_disk_sample(view, area_folded_polar(area_point(shift, point)));
-        tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
-    } while (++point < uAreaPointsAll);
-    light_loop_ended(point >= uAreaPointsAll);
-#endif
-    return tally;
-}
-#endif
-
-vec3 disk_light(int i, LightReceiver r, MODEL_PARAMS params)
-{
-    AreaLight light = area_light(uDiskLights, i, r);
-#if defined(AREA_SAMPLED) && defined(AREA_ANALYTIC)
-    vec3 reflected = area_arriving(disk_points(i, light, r, params), area_reflected_disk(light, r, params));
-#elif defined(AREA_SAMPLED)
-    vec3 reflected = disk_points(i, light, r, params).seen / float(uAreaPointsAll);
-#else
-    vec3 reflected = area_reflected_disk(light, r, params);
-#endif
-#ifdef AREA_HARD_SHADOWS
-    reflected *= area_center_visible(light, r);
-#endif
-#ifdef AREA_MAP_SHADOWS
-    reflected *= area_map_visible(uShadowDisk, light, r, PI * light.a * light.a);
-#endif
-    return light.radiance * reflected;
-}
-
-vec3 disk_lights(LightReceiver r, MODEL_PARAMS params)
-{
-    vec3 sum = vec3(0.0);
-    int i = uDiskFirst;
-    do
-        sum += disk_light(i, r, params);
-    while (++i < uDiskEnd);
-    light_loop_ended(i >= uDiskEnd);
-    return sum;
-}
-#endif
-
-#ifdef SPHERE_LIGHTS
-#ifdef AREA_SAMPLED
-AreaTally sphere_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
-{
-    AreaSphereView view = area_sphere_view(light.center, light.a);
-    uvec2 shift = area_shift(i, 2);
-    AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
-    int point = uAreaPointsFirst;
-    do
-        area_count(tally, area_sphere_sample(view, area_folded_polar(area_point(shift, point))), light, r, params);
-    while (++point < uAreaPointsEnd);
-    light_loop_ended(point >= uAreaPointsEnd);
-#ifdef AREA_SPLIT
-    // Other draws count the rest of what arrives; what is lit is that of all points.
-    tally.lit = vec3(0.0);
-    point = 0;
-    do {
-        AreaSample s = area_sphere_sample(view, area_folded_polar(area_point(shift, point)));
-        tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
-    } while (++point < uAreaPointsAll);
-    light_loop_ended(point >= uAreaPointsAll);
-#endif
-    return tally;
-}
-#endif
-
-vec3 sphere_light(int i, LightReceiver r, MODEL_PARAMS params)
-{
-    AreaLight light = area_light(uSphereLights, i, r);
-#if defined(AREA_SAMPLED) && defined(AREA_ANALYTIC)
-    vec3 reflected = area_arriving(sphere_points(i, light, r, params), area_reflected_sphere(light, r, params));
-#elif defined(AREA_SAMPLED)
-    vec3 reflected = sphere_points(i, light, r, params).seen / float(uAreaPointsAll);
-#else
-    vec3 reflected = area_reflected_sphere(light, r, params);
-#endif
-#ifdef AREA_HARD_SHADOWS
-    reflected *= area_center_visible(light, r);
-#endif
-#ifdef AREA_MAP_SHADOWS
-    reflected *= area_map_visible(uShadowSphere, light, r, PI * light.a * light.a);
-#endif
-    return light.radiance * reflected;
-}
-
-vec3 sphere_lights(LightReceiver r, MODEL_PARAMS params)
-{
-    vec3 sum = vec3(0.0);
-    int i = uSphereFirst;
-    do
-        sum += sphere_light(i, r, params);
-    while (++i < uSphereEnd);
-    light_loop_ended(i >= uSphereEnd);
-    return sum;
-}
-#endif
-
-#ifdef TUBE_LIGHTS
-#ifdef AREA_SAMPLED
-AreaTally tube_points(int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
-{
-    AreaTubeView view = area_tube_view(light.center, light.axis * light.a, light.b);
-    uvec2 shift = area_shift(i, 3);
-    AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
-    int point = uAreaPointsFirst;
-    do
-        area_count(tally, area_tube_sample(view, area_folded(area_point(shift, point))), light, r, params);
-    while (++point < uAreaPointsEnd);
-    light_loop_ended(point >= uAreaPointsEnd);
-#ifdef AREA_SPLIT
-    // Other draws count the rest of what arrives; what is lit is that of all points.
-    tally.lit = vec3(0.0);
-    point = 0;
-    do {
-        AreaSample s = area_tube_sample(view, area_folded(area_point(shift, point)));
-        tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
-    } while (++point < uAreaPointsAll);
-    light_loop_ended(point >= uAreaPointsAll);
-#endif
-    return tally;
-}
-#endif
-
-vec3 tube_light(int i, LightReceiver r, MODEL_PARAMS params)
-{
-    AreaLight light = area_light(uTubeLights, i, r);
-#if defined(AREA_SAMPLED) && defined(AREA_ANALYTIC)
-    vec3 reflected = area_arriving(tube_points(i, light, r, params), area_reflected_tube(light, r, params));
-#elif defined(AREA_SAMPLED)
-    vec3 reflected = tube_points(i, light, r, params).seen / float(uAreaPointsAll);
-#else
-    vec3 reflected = area_reflected_tube(light, r, params);
-#endif
-#ifdef AREA_HARD_SHADOWS
-    reflected *= area_center_visible(light, r);
-#endif
-#ifdef AREA_MAP_SHADOWS
-    reflected *= area_map_visible(uShadowTube, light, r, (4.0 * light.a + PI * light.b) * light.b);
-#endif
-    return light.radiance * reflected;
-}
-
-vec3 tube_lights(LightReceiver r, MODEL_PARAMS params)
-{
-    vec3 sum = vec3(0.0);
-    int i = uTubeFirst;
-    do
-        sum += tube_light(i, r, params);
-    while (++i < uTubeEnd);
-    light_loop_ended(i >= uTubeEnd);
-    return sum;
-}
-#endif
 #endif
 
 vec3 all_area_lights(LightReceiver r, MODEL_PARAMS params)
@@ -441,16 +322,16 @@ vec3 all_area_lights(LightReceiver r, MODEL_PARAMS params)
     sum += mirrored_lights(r, params);
 #else
 #ifdef RECT_LIGHTS
-    sum += rect_lights(r, params);
+    sum += area_sum(AREA_RECT, uRectLights, uRectFirst, uRectEnd, r, params);
 #endif
 #ifdef DISK_LIGHTS
-    sum += disk_lights(r, params);
+    sum += area_sum(AREA_DISK, uDiskLights, uDiskFirst, uDiskEnd, r, params);
 #endif
 #ifdef SPHERE_LIGHTS
-    sum += sphere_lights(r, params);
+    sum += area_sum(AREA_SPHERE, uSphereLights, uSphereFirst, uSphereEnd, r, params);
 #endif
 #ifdef TUBE_LIGHTS
-    sum += tube_lights(r, params);
+    sum += area_sum(AREA_TUBE, uTubeLights, uTubeFirst, uTubeEnd, r, params);
 #endif
 #endif
     return sum;

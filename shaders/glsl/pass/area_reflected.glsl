@@ -43,8 +43,7 @@ void area_begin(LightReceiver r, MODEL_PARAMS p)
 #endif
 }
 
-#ifdef RECT_LIGHTS
-vec3 area_reflected_rect(AreaLight light, LightReceiver r, MODEL_PARAMS p)
+vec3 area_reflected_rect(AreaLight light, LightReceiver r)
 {
     vec3 center = area_local(r, light.center), facing = area_local(r, light.facing);
     vec3 half_u = area_local(r, light.axis) * light.a, half_v = area_local(r, cross(light.facing, light.axis)) * light.b;
@@ -55,9 +54,8 @@ vec3 area_reflected_rect(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 #endif
     return sum;
 }
-#endif
-#ifdef DISK_LIGHTS
-vec3 area_reflected_disk(AreaLight light, LightReceiver r, MODEL_PARAMS p)
+
+vec3 area_reflected_disk(AreaLight light, LightReceiver r)
 {
     vec3 center = area_local(r, light.center), facing = area_local(r, light.facing);
     vec3 sum = area_surface.lambert * area_disk_factor(center, facing, light.a);
@@ -66,9 +64,8 @@ vec3 area_reflected_disk(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 #endif
     return sum;
 }
-#endif
-#ifdef SPHERE_LIGHTS
-vec3 area_reflected_sphere(AreaLight light, LightReceiver r, MODEL_PARAMS p)
+
+vec3 area_reflected_sphere(AreaLight light, LightReceiver r)
 {
     vec3 center = area_local(r, light.center);
     vec3 sum = area_surface.lambert * area_sphere_factor(center, light.a);
@@ -77,9 +74,8 @@ vec3 area_reflected_sphere(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 #endif
     return sum;
 }
-#endif
-#ifdef TUBE_LIGHTS
-vec3 area_reflected_tube(AreaLight light, LightReceiver r, MODEL_PARAMS p)
+
+vec3 area_reflected_tube(AreaLight light, LightReceiver r)
 {
     vec3 center = area_local(r, light.center), half_axis = area_local(r, light.axis) * light.a;
     vec3 sum = area_surface.lambert * area_tube_factor(center, half_axis, light.b);
@@ -88,5 +84,5 @@ vec3 area_reflected_tube(AreaLight light, LightReceiver r, MODEL_PARAMS p)
 #endif
     return sum;
 }
-#endif
+
 #endif

@@ -92,6 +92,14 @@ RayPair ray_pair(Ray ray, int texel)
 
 float ray_edge(vec3 p, vec3 q) { return p.x * q.y - p.y * q.x; }
 
+/// Weights of the vertices of a pair's triangles where the ray passes their planes, not divided by their sums.
+void ray_weights(RayPair p, out vec3 abc, out vec3 dcb)
+{
+    float bc = ray_edge(p.b, p.c);
+    abc = vec3(bc, ray_edge(p.c, p.a), ray_edge(p.a, p.b));
+    dcb = vec3(-bc, ray_edge(p.b, p.d), ray_edge(p.d, p.c));
+}
+
 /// Whether the ray meets a triangle whose vertices have these weights, not divided by their sum, and depths. A triangle
 /// seen from its edge has the sum 0: its distance is no number or infinite, and no comparison holds.
 bool ray_meets_triangle(Ray ray, vec3 weights, vec3 depths)
@@ -129,9 +137,8 @@ bool ray_is_blocked(Ray ray, bool wanted)
             if (pairs.y > 0) {
                 do {
                     RayPair p = ray_pair(ray, pairs.x);
-                    float bc = ray_edge(p.b, p.c);
-                    vec3 abc = vec3(bc, ray_edge(p.c, p.a), ray_edge(p.a, p.b));
-                    vec3 dcb = vec3(-bc, ray_edge(p.b, p.d), ray_edge(p.d, p.c));
+                    vec3 abc, dcb;
+                    ray_weights(p, abc, dcb);
                     blocked = ray_meets_triangle(ray, abc, vec3(p.a.z, p.b.z, p.c.z)) ||
                               ray_meets_triangle(ray, dcb, vec3(p.d.z, p.c.z, p.b.z));
                     pairs += ivec2(RAY_PAIR_TEXELS, -1);
@@ -201,9 +208,8 @@ float ray_transmittance(Ray ray, bool wanted)
             if (pairs.y > 0) {
                 do {
                     RayPair p = ray_pair(ray, pairs.x);
-                    float bc = ray_edge(p.b, p.c);
-                    vec3 abc = vec3(bc, ray_edge(p.c, p.a), ray_edge(p.a, p.b));
-                    vec3 dcb = vec3(-bc, ray_edge(p.b, p.d), ray_edge(p.d, p.c));
+                    vec3 abc, dcb;
+                    ray_weights(p, abc, dcb);
                     int surface = pairs.x + RAY_PAIR_TEXELS;
                     // A weight of no number belongs to a triangle that is not met.
                     if (ray_meets_triangle(ray, abc, vec3(p.a.z, p.b.z, p.c.z)))

@@ -4,9 +4,13 @@
 /// params slot      of the light's shadow, from its buffer; below 0: it casts none
 ///        wi_w      to the light, unit, world axes
 ///        distance  to the light, m; 0 where its light does not reach
-#if defined(DIRECTIONAL_SHADOW_RAYS) || defined(POINT_SHADOW_RAYS) || defined(SPOT_SHADOW_RAYS) || defined(AREA_SHADOWS) \
-    || defined(AREA_HARD_SHADOWS)
+#if defined(DIRECTIONAL_SHADOW_RAYS) || defined(POINT_SHADOW_RAYS) || defined(SPOT_SHADOW_RAYS)
 #define SHADOW_RAYS
+#elif defined(AREA_SHADOWS) || defined(AREA_HARD_SHADOWS)
+#define SHADOW_RAYS
+#endif
+
+#ifdef SHADOW_RAYS
 #include "shadow/rays.glsl"
 
 /// Light from below the horizon of the shading normal is not reflected: no ray is cast for it.
