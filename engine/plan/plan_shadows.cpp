@@ -24,10 +24,9 @@ bool Planner::prefersMaps() const {
 
 /// Why maps were taken, where nobody asked for them.
 std::string Planner::mapsReason() const {
-    return plan_.quality.shadowMethod == ShadowMethod::maps
-               ? ""
-               : ", as rays through " + std::to_string(scene_.castingTriangles) +
-                     " triangles would take longer";
+    if (plan_.quality.shadowMethod == ShadowMethod::maps) return {};
+    if (const std::string reason = whyNoRays(); !reason.empty()) return ", as rays cannot be had: " + reason;
+    return ", as rays through " + std::to_string(scene_.castingTriangles) + " triangles would take longer";
 }
 
 std::string Planner::whyNoShadow(int casting) const {

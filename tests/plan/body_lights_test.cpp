@@ -3,18 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "plan/plan.hpp"
-#include "support/scenes.hpp"
+#include "planning.hpp"
 
 namespace lobe {
 namespace {
 
-Capabilities modern() {
-    Capabilities capabilities;
-    capabilities.clipControl = true;
-    capabilities.maxTextureSize = 16384;
-    return capabilities;
-}
+using test::planOf;
+using test::reasonFor;
 
 Scene quad(const std::string& brdf = "lambert") {
     Scene scene;
@@ -34,16 +29,6 @@ Scene underBody(LightType type, const std::string& brdf = "lambert") {
     Scene scene = quad(brdf);
     scene.lights.push_back(body(type));
     return scene;
-}
-
-FramePlan planOf(const Scene& scene, const Quality& quality = {}, const AovSet& aovs = {Aov::radiance}) {
-    return planFrame(summarise(scene), quality, modern(), aovs);
-}
-
-std::string reasonFor(const FramePlan& plan, const std::string& name) {
-    for (const LeftOut& leftOut : plan.leftOut)
-        if (leftOut.name == name) return leftOut.reason;
-    return {};
 }
 
 std::set<std::string> defines(const FramePlan& plan) {

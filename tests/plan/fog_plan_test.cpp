@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "plan/plan.hpp"
-#include "support/scenes.hpp"
+#include "planning.hpp"
 
 namespace lobe {
 namespace {
 
+using test::planOf;
+using test::reasonFor;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-Capabilities modern() {
-    Capabilities capabilities;
-    capabilities.clipControl = true;
-    capabilities.maxTextureSize = 16384;
-    return capabilities;
-}
 
 Scene litQuad() {
     Scene scene;
@@ -43,16 +37,6 @@ void addPane(Scene& scene, const std::string& model = "lambert") {
     if (model == "thin_transmission")
         test::setParameter(scene.materials[static_cast<size_t>(material)], "metallic", glm::dvec3(0.0));
     test::addInstance(scene, test::addQuad(scene, material, 1.0f));
-}
-
-FramePlan planOf(const Scene& scene, const Quality& quality = {}, const AovSet& aovs = {Aov::radiance}) {
-    return planFrame(summarise(scene), quality, modern(), aovs);
-}
-
-std::string reasonFor(const FramePlan& plan, const std::string& name) {
-    for (const LeftOut& leftOut : plan.leftOut)
-        if (leftOut.name == name) return leftOut.reason;
-    return {};
 }
 
 std::vector<std::string> definesWith(const FramePlan& plan, const std::string& part) {

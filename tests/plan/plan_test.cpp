@@ -1,23 +1,17 @@
 // The plan as plain data: what a scene needs is kept, and what it does not need is left out, with a reason.
-#include "plan/plan.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "support/scenes.hpp"
+#include "planning.hpp"
 
 namespace lobe {
 namespace {
 
-Capabilities modern() {
-    Capabilities capabilities;
-    capabilities.clipControl = true;
-    capabilities.maxTextureSize = 16384;
-    return capabilities;
-}
+using test::modern;
+using test::reasonFor;
 
 Scene litQuad(const std::string& brdf = "lambert") {
     Scene scene;
@@ -30,12 +24,6 @@ Scene litQuad(const std::string& brdf = "lambert") {
 FramePlan planOf(const Scene& scene, Quality quality = {}, const AovSet& aovs = {Aov::radiance}) {
     quality.shadows = Shadows::none;
     return planFrame(summarise(scene), quality, modern(), aovs);
-}
-
-std::string reasonFor(const FramePlan& plan, const std::string& name) {
-    for (const LeftOut& leftOut : plan.leftOut)
-        if (leftOut.name == name) return leftOut.reason;
-    return {};
 }
 
 bool anyDefine(const FramePlan& plan, const std::string& key) {

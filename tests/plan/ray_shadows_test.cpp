@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "plan/plan.hpp"
-#include "support/scenes.hpp"
+#include "planning.hpp"
 
 namespace lobe {
 namespace {
 
+using test::reasonFor;
+
 Capabilities withTexels(int texels) {
-    Capabilities capabilities;
-    capabilities.clipControl = true;
+    Capabilities capabilities = test::modern();
     capabilities.maxTextureBufferTexels = texels;
     return capabilities;
 }
@@ -35,12 +35,6 @@ Scene ballAndLights() {
     return scene;
 }
 
-std::string reasonFor(const FramePlan& plan, const std::string& name) {
-    for (const LeftOut& leftOut : plan.leftOut)
-        if (leftOut.name == name) return leftOut.reason;
-    return {};
-}
-
 const std::map<std::string, std::string>& definesOf(const FramePlan& plan, const std::string& pass) {
     return plan.pass(pass)->variants.front().defines;
 }
@@ -56,6 +50,32 @@ TEST(RayShadows, EachTypeOfLightHasThem) {
     }
     EXPECT_THAT(plan.notes, testing::Contains(testing::HasSubstr("shadows of point lights: rays")));
     EXPECT_EQ(reasonFor(plan, "holes and dimming of rays"), "all surfaces that cast shadows are opaque");
+}
+
+TEST(RayShadows, WhereNobodyAsksTheyAreTakenForAsManyTrianglesAsTheyAreFastFor) {
+    SceneSummary summary = summarise(ballAndLights());
+    summary.bodyLights[LightType::sphere] = 1;
+    summary.shadowLights[LightType::sphere] = 1;
+    const auto methods = [&](const Capabilities& capabilities) {
+        const FramePlan plan = planFrame(summary, {}, capabilities);
+        std::set<PlannedShadow> found;
+        for (const auto& [type, method] : plan.shadows)
+            found.insert(method);
+        return found;
+    };
+    EXPECT_THAT(methods(test::modern()), testing::ElementsAre(PlannedShadow::rays));
+    summary.castingTriangles = 200000;
+    EXPECT_THAT(methods(test::modern()), testing::ElementsAre(PlannedShadow::rays));
+    summary.castingTriangles = 200001;
+    EXPECT_THAT(methods(test::modern()), testing::ElementsAre(PlannedShadow::maps));
+    EXPECT_THAT(planFrame(summary, {}, test::modern()).notes,
+                testing::Contains(testing::HasSubstr("rays through 200001 triangles would take longer")));
+    summary.blendedCasters = true;
+    EXPECT_THAT(methods(test::modern()), testing::ElementsAre(PlannedShadow::rays)) << "maps have no panes";
+    summary.castingTriangles = 1000;
+    summary.blendedCasters = false;
+    EXPECT_THAT(methods(withTexels(100)), testing::ElementsAre(PlannedShadow::maps))
+        << "the buffers are too small";
 }
 
 TEST(RayShadows, NothingOfThemWhereShadowsAreOff) {

@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "plan/plan.hpp"
-#include "support/scenes.hpp"
+#include "planning.hpp"
 
 namespace lobe::test {
 namespace {
@@ -21,14 +20,6 @@ Quality mapped(int size = 2048, int taps = 16) {
     return quality;
 }
 
-Capabilities large() {
-    Capabilities capabilities;
-    capabilities.clipControl = true;
-    capabilities.maxTextureSize = 16384;
-    capabilities.maxArrayLayers = 2048;
-    return capabilities;
-}
-
 Scene sphereScene(const std::vector<Light>& lights) {
     Scene scene;
     addInstance(scene, addSphere(scene, addMaterial(scene, "lambert"), 4));
@@ -36,14 +27,8 @@ Scene sphereScene(const std::vector<Light>& lights) {
     return scene;
 }
 
-FramePlan planned(const Scene& scene, const Quality& quality, const Capabilities& capabilities = large()) {
+FramePlan planned(const Scene& scene, const Quality& quality, const Capabilities& capabilities = modern()) {
     return planFrame(summarise(scene), quality, capabilities);
-}
-
-std::string leftOutReason(const FramePlan& plan, const std::string& name) {
-    for (const LeftOut& left : plan.leftOut)
-        if (left.name == name) return left.reason;
-    return {};
 }
 
 std::string notes(const FramePlan& plan) {
@@ -79,7 +64,7 @@ TEST(PlanShadowMaps, AreLeftOutWhereNoneIsSought) {
     for (const FramePlan& plan : {planned(sphereScene({}), mapped()), planned(scene, none)}) {
         EXPECT_EQ(plan.pass("shadow.maps"), nullptr);
         EXPECT_EQ(plan.channel("shadow.maps"), nullptr);
-        EXPECT_EQ(leftOutReason(plan, "shadow.maps"), "no shadow is sought");
+        EXPECT_EQ(reasonFor(plan, "shadow.maps"), "no shadow is sought");
     }
     scene.lights[0].castsShadow = false;
     EXPECT_EQ(planned(scene, mapped()).pass("shadow.maps"), nullptr);
@@ -123,14 +108,14 @@ TEST(PlanShadowMaps, AreSmallerWhereManyWouldTakeTooMuch) {
     EXPECT_THAT(
         notes(plan),
         HasSubstr("1024 x 1024 in place of 2048 x 2048, since 48 layers would take more than 512 MiB"));
-    Capabilities small = large();
+    Capabilities small = modern();
     small.maxTextureSize = 1024;
     EXPECT_THAT(notes(planned(sphereScene({point({0, 2, 0}, {1, 1, 1})}), mapped(4096), small)),
                 HasSubstr("1024 x 1024 in place of 4096 x 4096, since the driver's textures are no larger"));
 }
 
 TEST(PlanShadowMaps, MoreLightsThanLayersAreRefused) {
-    Capabilities few = large();
+    Capabilities few = modern();
     few.maxArrayLayers = 256;
     const Scene scene = sphereScene(std::vector<Light>(200, point({0, 2, 0}, {1, 1, 1})));
     try {
