@@ -51,7 +51,7 @@ void addOptions(CLI::App& app, ReportArguments& r) {
         ->check(CLI::Range(1.0, 1e6));
     app.add_option("--truth", r.truth,
                    "converged: this engine with 64 samples; reference: double precision, with shadows; "
-                   "unshadowed: the same without [converged]")
+                   "unshadowed: the same of the scene without shadows [converged]")
         ->type_name("NAME")
         ->check(CLI::IsMember({"converged", "reference", "unshadowed"}));
     app.add_option("--truth-time", r.truthSeconds, "how long to compute a reference at most [120], s")
@@ -179,6 +179,8 @@ measure::ReportScene sceneOf(SceneLoader& loader, const Work& work, size_t i, st
     measure::ReportScene scene;
     scene.scene = preparedScene(
         std::make_shared<const Scene>(loader.load(work.files[i], loadOptionsOf(settings))), settings);
+    if (work.arguments.truth == "unshadowed")
+        scene.scene = std::make_shared<const Scene>(withoutShadows(*scene.scene));
     for (const std::string& warning : scene.scene->warnings)
         std::cerr << "lobe: warning: " << scene.scene->file << ": " << warning << '\n';
     scene.camera = cameraOf(*scene.scene, settings, 0);
@@ -204,8 +206,7 @@ json measureReport(const Work& work, gl::Context& context) {
     const ReportArguments& arguments = work.arguments;
     const measure::TruthSource truth =
         arguments.truth == "converged" ? measure::convergedTruth(context)
-                                       : measure::referenceTruth(arguments.truth == "reference",
-                                                                 arguments.truthSeconds, work.interrupted);
+                                       : measure::referenceTruth(arguments.truthSeconds, work.interrupted);
     measure::ReportEvents events = eventsOf(work);
     events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
     events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };

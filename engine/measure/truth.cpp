@@ -71,7 +71,7 @@ TruthSource convergedTruth(gl::Context& context) {
     };
 }
 
-TruthSource referenceTruth(bool shadows, double seconds, const std::atomic<bool>& stop) {
+TruthSource referenceTruth(double seconds, const std::atomic<bool>& stop) {
     return
         [=, &stop](const std::shared_ptr<const Scene>& scene, const Camera& camera, int width, int height) {
             const auto start = std::chrono::steady_clock::now();
@@ -81,7 +81,6 @@ TruthSource referenceTruth(bool shadows, double seconds, const std::atomic<bool>
             request.width = width;
             request.height = height;
             request.options.filter = reference::PixelFilter::box;
-            request.options.shadows = shadows;
             request.seconds = seconds;
             const reference::TruthResult result = reference::computeTruth(
                 scene, camera, request, nullptr, stop, [](const reference::TruthProgress&) {},
@@ -90,9 +89,8 @@ TruthSource referenceTruth(bool shadows, double seconds, const std::atomic<bool>
             truth.image = result.image;
             truth.standardError = ownError(result.image);
             truth.method = "reference";
-            truth.note = std::string("double precision, without OpenGL, the mean over each pixel, ") +
-                         (shadows ? "with" : "without") + " shadows; " + std::to_string(result.unfinished) +
-                         " pixels are less exact than wanted";
+            truth.note = "double precision, without OpenGL, the mean over each pixel; " +
+                         std::to_string(result.unfinished) + " pixels are less exact than wanted";
             truth.seconds = secondsSince(start);
             return truth;
         };

@@ -31,6 +31,6 @@ TruthSource convergedTruth(gl::Context& context);
 
 /// reference::computeTruth(), the mean over each pixel, to 0.2 % or for as long as `seconds`. Throws
 /// UsageError for a model without a twin.
-TruthSource referenceTruth(bool shadows, double seconds, const std::atomic<bool>& stop);
+TruthSource referenceTruth(double seconds, const std::atomic<bool>& stop);
 
 }  // namespace lobe::measure

@@ -90,13 +90,16 @@ std::string withoutReach(const SceneSummary& scene, const Quality& quality) {
     return quality.clusterFrom == 0 ? "clusters are off" : "";
 }
 
-std::string withoutLights(const SceneSummary& scene, const Quality&) {
-    return lightsOf(scene) > 0 ? "" : "no light in the scene";
+/// Why no light casts a shadow whatever the quality.
+std::string withoutCasting(const SceneSummary& scene, const Quality&) {
+    if (lightsOf(scene) == 0) return "no light in the scene";
+    if (scene.shadowLights.empty()) return "no light of the scene casts shadows";
+    return scene.castingTriangles == 0 ? "no surface of the scene casts shadows" : "";
 }
 
-/// Why no light casts a shadow.
+/// Why none does with this one.
 std::string withoutShadows(const SceneSummary& scene, const Quality& quality) {
-    if (std::string reason = withoutLights(scene, quality); !reason.empty()) return reason;
+    if (std::string reason = withoutCasting(scene, quality); !reason.empty()) return reason;
     return quality.shadows == Shadows::none ? "shadows are off" : "";
 }
 
@@ -230,7 +233,7 @@ const std::vector<Knob>& knobTable() {
          .range = {},
          .get = [](const Quality& q) -> std::string { return kShadows[static_cast<size_t>(q.shadows)]; },
          .set = [](Quality& q, const std::string& value) { q.shadows = chosen<Shadows>(kShadows, value); },
-         .withoutEffect = withoutLights},
+         .withoutEffect = withoutCasting},
         {.name = "shadow_method",
          .title = "Shadow method",
          .help = "shadow maps, exact rays, or for each type of light what suits the scene",

@@ -87,6 +87,13 @@ Scene withBrdf(const Scene& scene, const Brdf& brdf) {
     return result;
 }
 
+Scene withoutShadows(const Scene& scene) {
+    Scene result = scene;
+    for (Light& light : result.lights)
+        light.castsShadow = false;
+    return result;
+}
+
 bool addDefaultLight(Scene& scene, const Camera& camera) {
     if (!scene.lights.empty() || scene.ambientRadiance || scene.environment || !takesLight(scene))
         return false;

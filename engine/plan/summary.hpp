@@ -74,9 +74,9 @@ struct SceneSummary {
     std::vector<int> materialsInUse;        ///< indices into Scene::materials, ascending
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
-    std::map<LightType, int> bodyLights;    ///< rect, disk, sphere, tube: how many, where there are any
+    std::map<LightType, int> bodyLights;        ///< rect, disk, sphere, tube: how many, where there are any
     std::map<std::string, AreaForm> areaForms;  ///< of each model, where there are such lights
-    std::map<LightType, int> shadowLights;  ///< that cast shadows, of each type
+    std::map<LightType, int> shadowLights;      ///< that cast shadows, of each type
     int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
     /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,
@@ -140,6 +140,9 @@ Scene withParameters(const Scene& scene, const std::vector<ParameterOverride>& c
 /// The scene with the metals that it names, where their spectra are known, in `count` bands of wavelength (4
 /// to 64) in place of three indices; of others it says in its warnings that they stay in RGB.
 Scene withBands(const Scene& scene, int count);
+
+/// The scene with lights that cast no shadows.
+Scene withoutShadows(const Scene& scene);
 
 /// Why withSchlick() leaves a material's exact Fresnel equations; empty if it replaces them. Without a value
 /// if the material has none.

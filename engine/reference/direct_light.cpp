@@ -71,7 +71,7 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
         }
     }
     if (body == nullptr && environment_ == nullptr) return;
-    const double transmittance = visible(direction, nearest);
+    const double transmittance = body != nullptr && !body->castsShadow ? 1.0 : visible(direction, nearest);
     if (body != nullptr)
         exact[static_cast<size_t>(sourceOf(body->type))] +=
             reflectance * transmittance * bodyRadiance(*body, point.position);
