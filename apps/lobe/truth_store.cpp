@@ -1,11 +1,11 @@
 #include "truth_store.hpp"
 
-#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "base/content_hash.hpp"
 #include "base/error.hpp"
+#include "base/resources.hpp"
 #include "lobe_paths.hpp"
 #include "record.hpp"
 #include "scene/serialize.hpp"
@@ -16,14 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKey = "lobe:truth";
-
-fs::path cacheFolder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
-        return fs::path(cache) / "lobe" / "truth";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".cache" / "lobe" / "truth";
-    return {};
-}
 
 }  // namespace
 
@@ -45,7 +37,7 @@ std::string truthKey(const Scene& scene, const Camera& camera, const reference::
     return hash.hex();
 }
 
-TruthStore::TruthStore() : TruthStore(cacheFolder()) {}
+TruthStore::TruthStore() : TruthStore(cacheFolder("truth")) {}
 
 Image TruthStore::find(const std::string& key, ImageFiles& files) const {
     std::error_code ignored;

@@ -68,4 +68,11 @@ fs::path workerProgram(const std::string& name) {
          fs::path(paths::kInstalledWorkers) / name, fs::path(paths::kBuiltWorkers) / name});
 }
 
+fs::path cacheFolder(const std::string& part) {
+    if (const fs::path cache = fromEnvironment("XDG_CACHE_HOME"); !cache.empty())
+        return cache / "lobe" / part;
+    if (const fs::path home = fromEnvironment("HOME"); !home.empty()) return home / ".cache" / "lobe" / part;
+    return {};
+}
+
 }  // namespace lobe

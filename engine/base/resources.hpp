@@ -1,8 +1,9 @@
-/// Where the files that belong to Lobe are: shaders, workers, the parts of report pages. Never by the working
-/// directory.
+/// Where the files that belong to Lobe are: shaders, workers, the parts of report pages; and those that it
+/// keeps. Never by the working directory.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace lobe {
 
@@ -20,5 +21,9 @@ std::filesystem::path pageDirectory();
 /// ../libexec/lobe beside it; the package; the installed libexec folder; the build tree. Throws InputError as
 /// above.
 std::filesystem::path workerProgram(const std::string& name);
+
+/// Where results are kept that take time to make: $XDG_CACHE_HOME/lobe/PART, else ~/.cache/lobe/PART; empty
+/// without a home. The folder need not exist.
+std::filesystem::path cacheFolder(const std::string& part);
 
 }  // namespace lobe

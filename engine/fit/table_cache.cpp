@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -12,6 +11,7 @@
 #include "base/atomic_file.hpp"
 #include "base/content_hash.hpp"
 #include "base/error.hpp"
+#include "base/resources.hpp"
 
 namespace lobe::fit {
 namespace {
@@ -29,14 +29,6 @@ struct Header {
     uint64_t floats = 0;
     std::array<char, 16> key{}, content{};
 };
-
-fs::path cacheFolder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
-        return fs::path(cache) / "lobe" / "fits";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".cache" / "lobe" / "fits";
-    return {};
-}
 
 std::array<char, 16> characters(const std::string& hex) {
     std::array<char, 16> result{};
@@ -73,7 +65,7 @@ std::string tableKey(const TableRequest& request) {
     return hash.hex();
 }
 
-TableCache::TableCache() : TableCache(cacheFolder()) {}
+TableCache::TableCache() : TableCache(cacheFolder("fits")) {}
 
 std::optional<AreaTable> TableCache::find(const std::string& key) const {
     if (folder_.empty()) return {};
