@@ -1,5 +1,6 @@
 # Headers of others that most files include, parsed once instead of some hundred times: a full build takes a third less.
-# None of ours: a change of one would rebuild all. Nor CLI11: its constants would be made in each file, at 17 s each. Off with the clang preset, so that each file still names what it uses.
+# None of ours: a change of one would rebuild all. Nor CLI11: its constants would be made in each file, at 17 s each. Off
+# with the clang preset, so that each file still names what it uses.
 option(LOBE_PRECOMPILED_HEADERS "Parse standard, GLM, JSON and GoogleTest headers once" ON)
 
 set(LOBE_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional> <limits> <map> <memory> <numeric>
