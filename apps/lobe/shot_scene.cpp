@@ -156,4 +156,9 @@ RenderOptions renderOptionsOf(const Settings& settings) {
     return options;
 }
 
+bool truthHasShadows(const Settings& settings) {
+    const nlohmann::json& asked = settings.get("shadows");
+    return asked.is_null() || asked != "none";
+}
+
 }  // namespace lobe::app

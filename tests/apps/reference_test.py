@@ -44,7 +44,7 @@ class Reference(LobeTest):
         self.assertEqual(len(self.kept()), 2)
         self.kept()[0].write_bytes(b"damaged")
         self.reference("-o", "d.exr", "--error", "0.05", scene="disk.gltf")
-        self.reference("-o", "e.exr", "--error", "0.05", "--no-cache", "--no-shadows", scene="disk.gltf")
+        self.reference("-o", "e.exr", "--error", "0.05", "--no-cache", "--shadows", "none", scene="disk.gltf")
         self.assertEqual(len(self.kept()), 2)
 
     def test_mistakes(self):

@@ -48,19 +48,24 @@ void area_add_side(inout AreaPolygon p, vec3 a, vec3 b)
     p.moment -= dot(p.normal, cross(a, b)) * (3.0 * p.center.z + a.z + b.z);
 }
 
-/// Adds the part of the edge a -> b that is above the horizon. Edges run clockwise about the normal.
-void area_add_edge(inout AreaPolygon p, vec3 a, vec3 b)
+/// Adds the part of the edge a -> b that is above the horizon, or, after all of them, the edge along the horizon (`closing`).
+/// Edges run clockwise about the normal. Called from one place in a loop: compilers take long for copies of it.
+void area_add_edge(inout AreaPolygon p, vec3 a, vec3 b, bool closing)
 {
     float za = p.center.z + a.z, zb = p.center.z + b.z;
     bool up_a = za >= 0.0, up_b = zb >= 0.0;
     float down = za - zb;
     vec3 crossing = up_a == up_b ? a : mix(a, b, za / down);
-    if (up_a && !up_b)
-        p.leave = crossing;
-    if (!up_a && up_b)
-        p.enter = crossing;
-    if (up_a || up_b)
-        area_add_side(p, up_a ? a : crossing, up_b ? b : crossing);
+    vec3 from = up_a ? a : crossing, to = up_b ? b : crossing;
+    if (closing) {
+        from = p.leave;
+        to = p.enter;
+    } else {
+        p.leave = up_a && !up_b ? crossing : p.leave;
+        p.enter = !up_a && up_b ? crossing : p.enter;
+    }
+    if (up_a || up_b || closing)
+        area_add_side(p, from, to);
 }
 
 float area_rect_factor(vec3 center, vec3 half_u, vec3 half_v, vec3 facing)
@@ -75,11 +80,14 @@ float area_rect_factor(vec3 center, vec3 half_u, vec3 half_v, vec3 facing)
     // Clockwise about u x v; `facing` may be either side.
     if (dot(cross(u, v), facing) < 0.0)
         u = -u;
-    area_add_edge(p, u + v, u - v);
-    area_add_edge(p, u - v, -u - v);
-    area_add_edge(p, -u - v, v - u);
-    area_add_edge(p, v - u, u + v);
-    area_add_side(p, p.leave, p.enter);
+    vec3 a = u + v, b = u - v;
+    int i = 0;
+    do {
+        area_add_edge(p, a, b, i == 4);
+        vec3 next = -a;
+        a = b;
+        b = next;
+    } while (++i < 5);
     float above = -dot(p.center, facing);
     float d2 = dot(p.center, p.center);
     bool small = dot(u, u) + dot(v, v) < 5e-5 * d2;

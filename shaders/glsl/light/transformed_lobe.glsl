@@ -41,6 +41,19 @@ float lobe_within(float t2, float k)
     return y < 0.05 ? small : 1.0 - numeric_exp(-y);
 }
 
+/// Gauss's rule from -1 to 1: nodes of one half, and their weights.
+#if LOBE_NODES == 4
+const vec2 LOBE_RULE[2] = vec2[2](vec2(0.3399810436, 0.6521451549), vec2(0.8611363116, 0.3478548451));
+#elif LOBE_NODES == 8
+const vec2 LOBE_RULE[4] = vec2[4](vec2(0.1834346425, 0.3626837834), vec2(0.5255324099, 0.3137066459),
+                                  vec2(0.7966664774, 0.2223810345), vec2(0.9602898565, 0.1012285363));
+#else
+const vec2 LOBE_RULE[8] = vec2[8](vec2(0.0950125098, 0.1894506105), vec2(0.2816035508, 0.1826034150),
+                                  vec2(0.4580167777, 0.1691565194), vec2(0.6178762444, 0.1495959888),
+                                  vec2(0.7554044084, 0.1246289713), vec2(0.8656312024, 0.0951585117),
+                                  vec2(0.9445750231, 0.0622535239), vec2(0.9894009350, 0.0271524594));
+#endif
+
 /// Sums over the nodes +-t of a Gauss rule along an edge.
 float lobe_pair(float t, float t2_foot, vec2 middle, float half_angle, float k)
 {
@@ -69,24 +82,11 @@ float lobe_power_edge(vec3 a, vec3 b, float k)
     vec2 m = length2 > 1e-6 ? sum * inversesqrt(length2) : foot;
     vec2 middle = vec2(dot(m, foot), foot.x * m.y - foot.y * m.x);
     float h = (c >= 0.0 ? 0.5 : -0.5) * angle;
-#if LOBE_NODES == 4
-    float total = 0.6521451549 * lobe_pair(0.3399810436, t2_foot, middle, h, k)
-                + 0.3478548451 * lobe_pair(0.8611363116, t2_foot, middle, h, k);
-#elif LOBE_NODES == 8
-    float total = 0.3626837834 * lobe_pair(0.1834346425, t2_foot, middle, h, k)
-                + 0.3137066459 * lobe_pair(0.5255324099, t2_foot, middle, h, k)
-                + 0.2223810345 * lobe_pair(0.7966664774, t2_foot, middle, h, k)
-                + 0.1012285363 * lobe_pair(0.9602898565, t2_foot, middle, h, k);
-#else
-    float total = 0.1894506105 * lobe_pair(0.0950125098, t2_foot, middle, h, k)
-                + 0.1826034150 * lobe_pair(0.2816035508, t2_foot, middle, h, k)
-                + 0.1691565194 * lobe_pair(0.4580167777, t2_foot, middle, h, k)
-                + 0.1495959888 * lobe_pair(0.6178762444, t2_foot, middle, h, k)
-                + 0.1246289713 * lobe_pair(0.7554044084, t2_foot, middle, h, k)
-                + 0.0951585117 * lobe_pair(0.8656312024, t2_foot, middle, h, k)
-                + 0.0622535239 * lobe_pair(0.9445750231, t2_foot, middle, h, k)
-                + 0.0271524594 * lobe_pair(0.9894009350, t2_foot, middle, h, k);
-#endif
+    float total = 0.0;
+    int i = 0;
+    do
+        total += LOBE_RULE[i].y * lobe_pair(LOBE_RULE[i].x, t2_foot, middle, h, k);
+    while (++i < LOBE_NODES / 2);
     return INV_TWO_PI * h * total;
 }
 
@@ -231,25 +231,30 @@ void lobe_add_visible(inout LobeSum s, LobeFit fit, vec3 center, vec3 a, vec3 b)
         lobe_add_side(s.polygons[i], fit.lobes[i], lobe_map(fit.lobes[i], va), lobe_map(fit.lobes[i], vb));
 }
 
-/// Adds the edge from `center` + a to `center` + b. All edges of a polygon run one way about it.
-void lobe_add_edge(inout LobeSum s, LobeFit fit, vec3 center, vec3 a, vec3 b)
+/// Adds the edge from `center` + a to `center` + b, or, after all of them, the one along the horizon (`closing`). All edges
+/// of a polygon run one way about it. Called from one place in a loop: compilers take seconds for copies of it.
+void lobe_add_edge(inout LobeSum s, LobeFit fit, vec3 center, vec3 a, vec3 b, bool closing)
 {
     float za = center.z + a.z, zb = center.z + b.z;
     bool up_a = za >= 0.0, up_b = zb >= 0.0;
     vec3 crossing = up_a == up_b ? a : mix(a, b, clamp(za / (za - zb), 0.0, 1.0));
-    s.leave = up_a && !up_b ? crossing : s.leave;
-    s.enter = !up_a && up_b ? crossing : s.enter;
     bool any = up_a || up_b;
-    vec3 from = !any ? vec3(0.0) : up_a ? a : crossing, to = !any ? vec3(0.0) : up_b ? b : crossing;
     // Nothing of an edge below: from a point to itself.
+    vec3 from = !any ? vec3(0.0) : up_a ? a : crossing, to = !any ? vec3(0.0) : up_b ? b : crossing;
+    if (closing) {
+        from = s.leave;
+        to = s.enter;
+    } else {
+        s.leave = up_a && !up_b ? crossing : s.leave;
+        s.enter = !up_a && up_b ? crossing : s.enter;
+    }
     lobe_add_visible(s, fit, center, from, to);
 }
 
-/// What all lobes reflect of the polygon once all its edges are added. `center` is that of all edges, `size` the largest
+/// What all lobes reflect of the polygon once all its edges and the closing one are added. `center` is that of all edges, `size` the largest
 /// distance of a vertex from it, in the unit of `center`.
 vec3 lobe_total(LobeSum s, LobeFit fit, vec3 center, float size)
 {
-    lobe_add_visible(s, fit, center, s.leave, s.enter);
     vec3 vc = lobe_to_frame(fit, center);
     vec3 area = 0.5 * lobe_to_frame(fit, s.area);
     vec3 total = vec3(0.0);
@@ -275,10 +280,14 @@ vec3 lobe_rect(LobeFit fit, vec3 center, vec3 half_u, vec3 half_v)
     float scale = 1.0 / max(max(area_largest(center), area_largest(half_u)), max(area_largest(half_v), 1e-30));
     vec3 c = center * scale, u = half_u * scale, v = half_v * scale;
     LobeSum s = lobe_sum();
-    lobe_add_edge(s, fit, c, u + v, v - u);
-    lobe_add_edge(s, fit, c, v - u, -u - v);
-    lobe_add_edge(s, fit, c, -u - v, u - v);
-    lobe_add_edge(s, fit, c, u - v, u + v);
+    vec3 a = u + v, b = v - u;
+    int i = 0;
+    do {
+        lobe_add_edge(s, fit, c, a, b, i == 4);
+        vec3 next = -a;
+        a = b;
+        b = next;
+    } while (++i < 5);
     return lobe_total(s, fit, c, length(u) + length(v));
 }
 
@@ -298,9 +307,9 @@ vec3 lobe_cone(LobeFit fit, vec3 x, vec3 y, vec3 z, float sin_a, float cos_a, fl
     do {
         at = vec2(0.923879533 * at.x - 0.382683432 * at.y, 0.923879533 * at.y + 0.382683432 * at.x);
         vec3 to = i == EDGES - 1 ? u : u * at.x + v * at.y;
-        lobe_add_edge(s, fit, center, from, to);
+        lobe_add_edge(s, fit, center, from, to, i == EDGES);
         from = to;
-    } while (++i < EDGES);
+    } while (++i <= EDGES);
     return lobe_total(s, fit, center, max(length(u), length(v)));
 }
 
@@ -372,6 +381,7 @@ vec3 lobe_tube(LobeFit fit, vec3 center, vec3 half_axis, float radius)
     const int STEPS = 8;
     LobeSum s = lobe_sum();
     vec3 start = vec3(0.0), from = vec3(0.0);
+    const int VERTICES = 2 * STEPS + 2;
     int i = 0;
     do {
         bool at_first = i <= STEPS;
@@ -384,12 +394,13 @@ vec3 lobe_tube(LobeFit fit, vec3 center, vec3 half_axis, float radius)
         float wide = end.radius * (1.0 + step_angle * step_angle / 12.0);
         vec3 to = end.center + wide * (turn.x * end.outward + turn.y * side) - c;
         if (i == 0)
-            start = to;
-        else
-            lobe_add_edge(s, fit, c, from, to);
+            start = from = to;
+        if (i == VERTICES)
+            to = start;
+        // The first is from a point to itself.
+        lobe_add_edge(s, fit, c, from, to, i > VERTICES);
         from = to;
-    } while (++i < 2 * STEPS + 2);
-    lobe_add_edge(s, fit, c, from, start);
+    } while (++i <= VERTICES + 1);
     vec3 outline = lobe_total(s, fit, c, half_length + r);
     // Behind an end, within the cylinder, that end's ball is all that is seen.
     float along_c = dot(along, c);
