@@ -18,7 +18,7 @@ function(lobe_room name)
     $<BUILD_INTERFACE:${view}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lobe>)
   target_link_libraries(lobe_${name} PUBLIC lobe_compile ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE_LIBRARIES})
-  lobe_precompile(lobe_${name})
+  lobe_precompile(lobe_${name} lobe_precompiled_rooms)
   foreach(room IN LISTS ARG_USES)
     target_link_libraries(lobe_${name} PUBLIC lobe_${room})
   endforeach()
