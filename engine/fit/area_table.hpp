@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "fit/lobe_fit.hpp"
 #include "shading/brdf.hpp"
 
 namespace lobe::fit {
 
 /// Changes whenever the same values would be fitted otherwise: part of the key under which tables are kept.
-inline constexpr int kFitVersion = 1;
+inline constexpr int kFitVersion = 2;
 
 /// What a table is made for.
 struct TableRequest {
@@ -53,12 +54,13 @@ struct AreaTable {
 /// N.V, from 0 to what N.V = 1e-4 gives.
 inline constexpr int kAngleNodes = 41;
 inline constexpr double kLeastCosine = 1e-4;
-double oneMinusCosAt(int node);
+double oneMinusCosAt(double node);
 /// The place among the nodes, 0 .. kAngleNodes - 1, of any angle.
 double angleCoordinate(double oneMinusCos);
 
-/// Fits all nodes. 10 to 30 ms a node on one core.
+/// Fits all nodes, on all cores or with the threads that are given: alike on any number of them.
 AreaTable makeTable(const TableRequest& request);
+AreaTable makeTable(const TableRequest& request, ThreadTeam& team);
 
 /// A lobe as the table has it at one angle and width, by linear interpolation of its numbers.
 struct TableLobe {

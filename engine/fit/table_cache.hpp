@@ -24,7 +24,7 @@ public:
     void keep(const std::string& key, const AreaTable& table) const;
     /// From the folder, else fitted and kept.
     AreaTable table(const TableRequest& request) const;
-    /// Several, of which those that are missing are fitted in parallel.
+    /// Several; those that are missing are fitted, each on all cores.
     std::vector<AreaTable> tables(const std::vector<TableRequest>& requests) const;
 
 private:
