@@ -11,7 +11,7 @@
 namespace lobe::fit {
 namespace {
 
-constexpr size_t kFitDraws = 1024;     // of each search
+constexpr size_t kFitDraws = 512;     // of each search
 constexpr size_t kWeightDraws = 2048;  // of weights and albedos
 constexpr int kWidthNodes = 24;
 
@@ -43,7 +43,7 @@ std::vector<LobeSample> lobeSamples(const std::vector<TermSample>& samples, cons
 double importanceOf(double oneMinusCos) {
     constexpr double kSteep = 0.5, kGrazing = 0.0872;  // cosines of 60 and 85 degrees
     const double cosine = 1.0 - oneMinusCos;
-    return cosine >= kSteep ? 1.0 : cosine >= kGrazing ? 0.4 : 0.05;
+    return cosine >= kSteep ? 1.0 : cosine >= kGrazing ? 0.4 : 0.15;
 }
 
 struct NodeLobe {
@@ -58,14 +58,15 @@ struct Node {
 };
 
 /// Colours of the weights, from more draws than the search has.
-std::vector<NodeLobe> coloured(const Shapes& shapes, const std::vector<TermSample>& samples,
+std::vector<NodeLobe> coloured(const Numbers& fit, const std::vector<TermSample>& samples,
                                const Target& target) {
     std::vector<std::vector<double>> colors(3);
     for (const TermSample& s : samples)
         for (size_t c = 0; c < colors.size(); ++c)
             colors[c].push_back(target.of(s.terms)[static_cast<int>(c)]);
-    const std::vector<Weights> weights =
-        weightsFor(shapes, lobeSamples(samples, target), kWeightDraws, colors);
+    const Shapes shapes = shapesOf(fit);
+    const std::vector<Weights> weights = weightsFor(
+        shapes, {std::exp(fit[kWeightAt]), std::exp(fit[kLobeNumbers + kWeightAt])}, lobeSamples(samples, target), colors);
     std::vector<NodeLobe> lobes;
     for (size_t j = 0; j < kLobes; ++j)
         lobes.push_back({shapes[j], {weights[0][j], weights[1][j], weights[2][j]}});
@@ -79,34 +80,57 @@ double baseFactor(const std::vector<TermSample>& samples) {
     return sum / static_cast<double>(kWeightDraws);
 }
 
+/// The most that a term has of the light among all, where each weighs 0.04, as of glass, to 1. Not below a hundredth.
+double shareOf(const std::vector<Target>& targets, size_t target, const std::vector<TermSample>& samples) {
+    constexpr double kLeastWeight = 0.04, kLeastShare = 0.01;
+    double own = 0.0, others = 0.0;
+    for (const TermSample& s : samples)
+        for (size_t t = 0; t < targets.size(); ++t)
+            (t == target ? own : others) += meanOf(targets[t].of(s.terms)) / s.density;
+    return own > 0.0 ? std::max(own / (own + kLeastWeight * others), kLeastShare) : 1.0;
+}
+
 /// A row's terms at its nodes and halfway between them.
 class RowTerms {
 public:
     RowTerms(const Brdf& brdf, const ParameterValues& values, ThreadTeam& team) : places_(2 * kAngleNodes - 1) {
         static const std::vector<glm::dvec3> draws = spreadDraws(kWeightDraws);
+        const auto first = std::span(draws).first(kFitDraws), rest = std::span(draws).subspan(kFitDraws);
         team.each(places_.size(), [&](size_t p) {
-            places_[p] = sampleTerms(brdf, values, View(oneMinusCosAt(0.5 * static_cast<double>(p))),
-                                     std::span(draws).first(p % 2 == 0 ? kWeightDraws : kFitDraws));
+            const View view(oneMinusCosAt(0.5 * static_cast<double>(p)));
+            Place& place = places_[p];
+            place.searched = sampleTerms(brdf, values, view, first);
+            if (p % 2 != 0) return;
+            place.all = place.searched;
+            const std::vector<TermSample> more = sampleTerms(brdf, values, view, rest);
+            place.all.insert(place.all.end(), more.begin(), more.end());
         });
     }
 
-    const std::vector<TermSample>& node(size_t n) const { return places_[2 * n]; }
+    /// For weights and albedos.
+    const std::vector<TermSample>& node(size_t n) const { return places_[2 * n].all; }
 
-    RowSamples of(const Target& target, ThreadTeam& team) const {
+    /// Of one of the targets.
+    RowSamples of(const std::vector<Target>& targets, size_t target, ThreadTeam& team) const {
         std::vector<std::optional<SearchSamples>> places(places_.size());
+        std::vector<double> share(places_.size());
         team.each(places.size(), [&](size_t p) {
-            places[p].emplace(lobeSamples(places_[p], target), p % 2 == 0 ? kWeightDraws : kFitDraws);
+            places[p].emplace(lobeSamples(places_[p].searched, targets[target]), kFitDraws);
+            share[p] = shareOf(targets, target, places_[p].searched);
         });
         RowSamples samples;
         for (size_t p = 0; p < places.size(); ++p) {
             samples.places.push_back(std::move(*places[p]));
-            samples.importance.push_back(importanceOf(oneMinusCosAt(0.5 * static_cast<double>(p))));
+            samples.importance.push_back(importanceOf(oneMinusCosAt(0.5 * static_cast<double>(p))) * share[p] * share[p]);
         }
         return samples;
     }
 
 private:
-    std::vector<std::vector<TermSample>> places_;
+    struct Place {
+        std::vector<TermSample> searched, all;
+    };
+    std::vector<Place> places_;
 };
 
 void append(std::vector<float>& texels, std::initializer_list<double> numbers) {
@@ -193,7 +217,7 @@ AreaTable makeTable(const TableRequest& request, ThreadTeam& team) {
     const double low = std::log(area.widths.first), high = std::log(area.widths.second);
     table.terms = static_cast<int>(targetsOf(request, request.values).size());
     append(table.texels, {kAngleNodes, double(widths), low, widths > 1 ? (widths - 1) / (high - low) : 0.0});
-    std::vector<std::vector<Numbers>> previous(static_cast<size_t>(table.terms));
+    std::vector<std::optional<std::pair<RowSamples, RowFit>>> previous(static_cast<size_t>(table.terms));
     std::vector<std::vector<Node>> rows(static_cast<size_t>(widths));
     // From wide to narrow: wide lobes differ most from round ones.
     const bool widestLast = area.width != "shininess";
@@ -207,14 +231,16 @@ AreaTable makeTable(const TableRequest& request, ThreadTeam& team) {
         if (area.baseVaries) team.each(nodes.size(), [&](size_t n) { nodes[n].base = baseFactor(terms.node(n)); });
         const std::vector<Target> targets = targetsOf(request, values);
         for (size_t t = 0; t < targets.size(); ++t) {
-            const RowFit fit = fitRow(terms.of(targets[t], team), table.cosines, previous[t], team);
+            RowSamples samples = terms.of(targets, t, team);
+            RowFit fit = previous[t] ? fitRowLike(previous[t]->second, previous[t]->first, samples, table.cosines, team)
+                                     : fitRow(samples, table.cosines, team);
             std::vector<std::vector<NodeLobe>> lobes(nodes.size());
             team.each(nodes.size(), [&](size_t n) {
-                lobes[n] = coloured(shapesOf(fit.nodes[n]), terms.node(n), targets[t]);
+                lobes[n] = coloured(fit.nodes[n], terms.node(n), targets[t]);
             });
             for (size_t n = 0; n < nodes.size(); ++n)
                 nodes[n].lobes.insert(nodes[n].lobes.end(), lobes[n].begin(), lobes[n].end());
-            previous[t] = fit.nodes;
+            previous[t] = {std::move(samples), std::move(fit)};
         }
     }
     for (const std::vector<Node>& nodes : rows)

@@ -31,10 +31,10 @@ TransformedLobe lobeOf(const LobeShape5& shape);
 /// Weights of one colour.
 using Weights = std::array<double, kLobes>;
 
-/// Least squares weights, at least 0, of the given shapes for the values of each of several colours at the samples, scaled so
-/// that what lies above the horizon is the albedo of those values. `samples` say where and how densely, and the lobe
-/// that errors are relative to; `drawn`: their number, those included that fell below the horizon and are not among them.
-std::vector<Weights> weightsFor(const Shapes& shapes, const std::vector<LobeSample>& samples, size_t drawn,
+/// Weights for each of several colours, whose values at the samples are given: `ofMean` for the mean of the colours, that the
+/// samples hold; for the others by least squares of what they differ by from their share of it. At least 0, and scaled so
+/// that what lies above the horizon is the albedo of the colour.
+std::vector<Weights> weightsFor(const Shapes& shapes, const Weights& ofMean, const std::vector<LobeSample>& samples,
                                 const std::vector<std::vector<double>>& colors);
 
 }  // namespace lobe::fit

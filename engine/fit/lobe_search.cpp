@@ -1,6 +1,7 @@
 #include "fit/lobe_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -109,6 +110,30 @@ void differentiate(const Lobe& lobe, const Densities& d, const Chunk& chunk, int
     row(kWeightAt) = weighted;
 }
 
+using Products = Eigen::Matrix<double, kAllNumbers + 1, kAllNumbers + 1>;
+
+/// Of each row with each before it and itself, four at a time: 13 rows are few for a product of matrices.
+void addProducts(const Rows& rows, Products& products) {
+    using Packet = Eigen::Array<float, 4, 1>;
+    const auto packet = [&](int row, Eigen::Index i) { return Eigen::Map<const Packet>(rows.data() + row * kChunk + i); };
+    for (int i = 0; i <= kAllNumbers; ++i)
+        for (int j = 0; j <= i; j += 4) {
+            std::array<Packet, 4> sums;
+            for (Packet& sum : sums)
+                sum.setZero();
+            const int last = kAllNumbers;
+            const std::array<int, 4> others{j, std::min(j + 1, last), std::min(j + 2, last), std::min(j + 3, last)};
+            for (Eigen::Index at = 0; at < kChunk; at += 4) {
+                const Packet here = packet(i, at);
+                for (size_t n = 0; n < sums.size(); ++n)
+                    sums[n] += here * packet(others[n], at);
+            }
+            for (size_t n = 0; n < sums.size(); ++n)
+                if (j + static_cast<int>(n) <= i)
+                    products(i, others[n]) += static_cast<double>(sums[n].sum());
+        }
+}
+
 const double kLogHighest = std::log(kHighestPower);
 /// Of weights over the albedo: none, and a lobe that is below the horizon but for a sixth.
 const double kLeastLogWeight = std::log(1e-6), kMostLogWeight = std::log(6.0);
@@ -183,8 +208,7 @@ std::optional<double> costAt(const Numbers& numbers, const SearchSamples& sample
 std::optional<Slope> slopeAt(const Numbers& numbers, const SearchSamples& samples, bool cosines) {
     if (isFolded(numbers)) return {};
     Rows rows;
-    Eigen::Matrix<double, kAllNumbers + 1, kAllNumbers + 1> products;
-    products.setZero();
+    Products products = Products::Zero();
     for (Eigen::Index first = 0; first < samples.x.size(); first += kChunk) {
         const Chunk chunk(samples, first);
         Floats residual = -chunk.value;
@@ -195,14 +219,13 @@ std::optional<Slope> slopeAt(const Numbers& numbers, const SearchSamples& sample
             differentiate(lobe, densities, chunk, o, cosines, rows);
         }
         rows.row(kAllNumbers) = residual * chunk.factor;
-        const Eigen::Matrix<float, kAllNumbers + 1, kAllNumbers + 1> ofChunk = rows * rows.transpose();
-        products += ofChunk.cast<double>();
+        addProducts(rows, products);
     }
     if (!products.allFinite()) return {};
     Slope slope;
     slope.cost = products(kAllNumbers, kAllNumbers);
-    slope.gradient = products.block<kAllNumbers, 1>(0, kAllNumbers);
-    slope.curvature = products.topLeftCorner<kAllNumbers, kAllNumbers>();
+    slope.gradient = products.block<1, kAllNumbers>(kAllNumbers, 0).transpose();
+    slope.curvature = products.topLeftCorner<kAllNumbers, kAllNumbers>().selfadjointView<Eigen::Lower>();
     return slope;
 }
 

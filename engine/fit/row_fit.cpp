@@ -9,7 +9,7 @@ namespace {
 
 /// Where searches begin: nodes' places along the row. Lobes differ most from round ones at 69 degrees and are
 /// still resolved there; at 0 they are round.
-constexpr std::array kBeginnings{0.75, 0.5, 0.0, 0.975};
+constexpr std::array<std::array<double, 2>, 2> kBeginnings{{{0.75, 0.5}, {0.0, 0.975}}};
 /// Of a node's numbers to its neighbour's, in units of the root of the cost: holds what the samples do not.
 constexpr double kSmoothness = 5e-3;
 constexpr int kMostSteps = 60;
@@ -47,8 +47,9 @@ public:
         };
         accept();
         double damping = 1e-3;
-        int idle = 0;
+        int idle = 0, dbg = 0;
         for (int i = 0; i < kMostSteps && idle < 2; ++i) {
+            ++dbg;
             const std::vector<Numbers> next = step(fit.nodes, damping);
             if (!evaluate(next) || !(objective_ < objective)) {
                 damping *= 8.0;
@@ -61,6 +62,7 @@ public:
             damping = std::max(damping * 0.2, 1e-7);
             accept();
         }
+        if (getenv("FITLOG")) fprintf(stderr, "steps %d objective %g\n", dbg, objective);
         evaluate(fit.nodes);
         double sum = 0.0, total = 0.0;
         fit.worst = 0.0;
@@ -217,24 +219,41 @@ std::vector<Numbers> continued(const RowSamples& samples, size_t fresh, bool cos
     return nodes;
 }
 
+/// Fits of another row, wider or narrower as its lobes are.
+std::vector<Numbers> rescaled(std::vector<Numbers> nodes, const RowSamples& from, const RowSamples& to) {
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const double narrower = std::log(from.node(n).medianSlope() / to.node(n).medianSlope());
+        for (int o = 0; o < kAllNumbers; o += kLobeNumbers) {
+            nodes[n][o] += narrower;
+            nodes[n][o + 2] += narrower;
+        }
+    }
+    return nodes;
+}
+
 }  // namespace
 
-RowFit fitRow(const RowSamples& samples, bool cosines, const std::vector<Numbers>& likeThese, ThreadTeam& team) {
+RowFit fitRowLike(const RowFit& other, const RowSamples& ofOther, const RowSamples& samples, bool cosines,
+                  ThreadTeam& team) {
+    return RowSearch(samples, cosines, team).improved(rescaled(other.nodes, ofOther, samples));
+}
+
+RowFit fitRow(const RowSamples& samples, bool cosines, ThreadTeam& team) {
     RowSearch search(samples, cosines, team);
-    std::vector<std::vector<Numbers>> starts(kBeginnings.size());
-    if (!likeThese.empty()) {
-        starts = {likeThese};
-    } else {
-        team.each(starts.size(), [&](size_t i) {
-            const auto fresh = static_cast<size_t>(kBeginnings[i] * static_cast<double>(samples.nodes() - 1));
-            starts[i] = continued(samples, fresh, cosines);
-        });
-    }
+    // Starts from two ends that come to the same are taken for the best there is.
+    const double kAlike = getenv("ALIKE")?atof(getenv("ALIKE")):1.05;
     RowFit best;
-    best.cost = HUGE_VAL;
-    for (const std::vector<Numbers>& start : starts) {
-        RowFit fit = search.improved(start);
-        if (best.nodes.empty() || fit.cost < best.cost) best = std::move(fit);
+    for (const std::array<double, 2>& pair : kBeginnings) {
+        std::array<RowFit, 2> fits;
+        team.each(pair.size(), [&](size_t i) {
+            const auto fresh = static_cast<size_t>(pair[i] * static_cast<double>(samples.nodes() - 1));
+            fits[i].nodes = continued(samples, fresh, cosines);
+        });
+        for (RowFit& fit : fits) {
+            fit = search.improved(std::move(fit.nodes));
+            if (best.nodes.empty() || fit.cost < best.cost) best = fit;
+        }
+        if (std::max(fits[0].cost, fits[1].cost) < kAlike * best.cost) break;
     }
     return best;
 }

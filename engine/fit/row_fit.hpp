@@ -25,8 +25,10 @@ struct RowFit {
     double worst = 0.0;  ///< the largest of them
 };
 
-/// The best of several. `likeThese`: fits of a row beside this one, which it starts from; or none. Lobes are round at
-/// the first node.
-RowFit fitRow(const RowSamples& samples, bool cosines, const std::vector<Numbers>& likeThese, ThreadTeam& team);
+/// The best of several searches. Lobes are round at the first node.
+RowFit fitRow(const RowSamples& samples, bool cosines, ThreadTeam& team);
+/// The one of the same kind as that of another row, of a width not far off: so that what is interpolated between both fits too.
+RowFit fitRowLike(const RowFit& other, const RowSamples& ofOther, const RowSamples& samples, bool cosines,
+                  ThreadTeam& team);
 
 }  // namespace lobe::fit
