@@ -7,7 +7,8 @@
 
 namespace lobe {
 
-/// Keeps its threads between loops: a loop of jobs of some 20 us is worth sharing out. For one caller at a time.
+/// Keeps its threads between loops: a loop of jobs of some 20 us is worth sharing out. For one caller at a
+/// time.
 class ThreadTeam {
 public:
     /// Of `threads`, the caller's own among them; 0 for one a core.
@@ -16,8 +17,9 @@ public:
     ThreadTeam(const ThreadTeam&) = delete;
     ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-    /// job(0) .. job(count - 1), each once, in any order and from several threads; returns when all are done. The first
-    /// exception of a job is thrown on, once the jobs that had begun are done; the rest are then left out.
+    /// job(0) .. job(count - 1), each once, in any order and from several threads; returns when all are done.
+    /// The first exception of a job is thrown on, once the jobs that had begun are done; the rest are then
+    /// left out.
     void each(size_t count, const std::function<void(size_t)>& job);
 
 private:

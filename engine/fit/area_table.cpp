@@ -11,7 +11,7 @@
 namespace lobe::fit {
 namespace {
 
-constexpr size_t kFitDraws = 512;     // of each search
+constexpr size_t kFitDraws = 512;      // of each search
 constexpr size_t kWeightDraws = 2048;  // of weights and albedos
 constexpr int kWidthNodes = 24;
 
@@ -65,8 +65,9 @@ std::vector<NodeLobe> coloured(const Numbers& fit, const std::vector<TermSample>
         for (size_t c = 0; c < colors.size(); ++c)
             colors[c].push_back(target.of(s.terms)[static_cast<int>(c)]);
     const Shapes shapes = shapesOf(fit);
-    const std::vector<Weights> weights = weightsFor(
-        shapes, {std::exp(fit[kWeightAt]), std::exp(fit[kLobeNumbers + kWeightAt])}, lobeSamples(samples, target), colors);
+    const std::vector<Weights> weights =
+        weightsFor(shapes, {std::exp(fit[kWeightAt]), std::exp(fit[kLobeNumbers + kWeightAt])},
+                   lobeSamples(samples, target), colors);
     std::vector<NodeLobe> lobes;
     for (size_t j = 0; j < kLobes; ++j)
         lobes.push_back({shapes[j], {weights[0][j], weights[1][j], weights[2][j]}});
@@ -80,7 +81,8 @@ double baseFactor(const std::vector<TermSample>& samples) {
     return sum / static_cast<double>(kWeightDraws);
 }
 
-/// The most that a term has of the light among all, where each weighs 0.04, as of glass, to 1. Not below a hundredth.
+/// The most that a term has of the light among all, where each weighs 0.04, as of glass, to 1. Not below a
+/// hundredth.
 double shareOf(const std::vector<Target>& targets, size_t target, const std::vector<TermSample>& samples) {
     constexpr double kLeastWeight = 0.04, kLeastShare = 0.01;
     double own = 0.0, others = 0.0;
@@ -93,7 +95,8 @@ double shareOf(const std::vector<Target>& targets, size_t target, const std::vec
 /// A row's terms at its nodes and halfway between them.
 class RowTerms {
 public:
-    RowTerms(const Brdf& brdf, const ParameterValues& values, ThreadTeam& team) : places_(2 * kAngleNodes - 1) {
+    RowTerms(const Brdf& brdf, const ParameterValues& values, ThreadTeam& team)
+        : places_(2 * kAngleNodes - 1) {
         static const std::vector<glm::dvec3> draws = spreadDraws(kWeightDraws);
         const auto first = std::span(draws).first(kFitDraws), rest = std::span(draws).subspan(kFitDraws);
         team.each(places_.size(), [&](size_t p) {
@@ -121,7 +124,8 @@ public:
         RowSamples samples;
         for (size_t p = 0; p < places.size(); ++p) {
             samples.places.push_back(std::move(*places[p]));
-            samples.importance.push_back(importanceOf(oneMinusCosAt(0.5 * static_cast<double>(p))) * share[p] * share[p]);
+            samples.importance.push_back(importanceOf(oneMinusCosAt(0.5 * static_cast<double>(p))) *
+                                         share[p] * share[p]);
         }
         return samples;
     }
@@ -228,16 +232,17 @@ AreaTable makeTable(const TableRequest& request, ThreadTeam& team) {
         const RowTerms terms(*request.brdf, values, team);
         std::vector<Node>& nodes = rows[static_cast<size_t>(row)];
         nodes.resize(kAngleNodes);
-        if (area.baseVaries) team.each(nodes.size(), [&](size_t n) { nodes[n].base = baseFactor(terms.node(n)); });
+        if (area.baseVaries)
+            team.each(nodes.size(), [&](size_t n) { nodes[n].base = baseFactor(terms.node(n)); });
         const std::vector<Target> targets = targetsOf(request, values);
         for (size_t t = 0; t < targets.size(); ++t) {
             RowSamples samples = terms.of(targets, t, team);
-            RowFit fit = previous[t] ? fitRowLike(previous[t]->second, previous[t]->first, samples, table.cosines, team)
+            RowFit fit = previous[t] ? fitRowLike(previous[t]->second, previous[t]->first, samples,
+                                                  table.cosines, team)
                                      : fitRow(samples, table.cosines, team);
             std::vector<std::vector<NodeLobe>> lobes(nodes.size());
-            team.each(nodes.size(), [&](size_t n) {
-                lobes[n] = coloured(fit.nodes[n], terms.node(n), targets[t]);
-            });
+            team.each(nodes.size(),
+                      [&](size_t n) { lobes[n] = coloured(fit.nodes[n], terms.node(n), targets[t]); });
             for (size_t n = 0; n < nodes.size(); ++n)
                 nodes[n].lobes.insert(nodes[n].lobes.end(), lobes[n].begin(), lobes[n].end());
             previous[t] = {std::move(samples), std::move(fit)};

@@ -15,7 +15,8 @@ TransformedLobe lobeOf(const LobeShape5& shape) {
     return lobe;
 }
 
-std::vector<Weights> weightsFor(const Shapes& shapes, const Weights& ofMean, const std::vector<LobeSample>& samples,
+std::vector<Weights> weightsFor(const Shapes& shapes, const Weights& ofMean,
+                                const std::vector<LobeSample>& samples,
                                 const std::vector<std::vector<double>>& colors) {
     static_assert(kLobes == 2);
     const TransformedLobe first = lobeOf(shapes[0]), second = lobeOf(shapes[1]);

@@ -15,7 +15,8 @@ struct TermSample {
     AreaTerms terms;
 };
 
-/// Numbers in [0, 1) that directions are drawn with, spread evenly; the first ones of a longer list are those of a shorter.
+/// Numbers in [0, 1) that directions are drawn with, spread evenly; the first ones of a longer list are those
+/// of a shorter.
 std::vector<glm::dvec3> spreadDraws(size_t count, uint64_t seed = 1);
 
 /// Terms at those of the directions drawn that are above the horizon.

@@ -23,7 +23,8 @@ struct Lobe {
     Lobe(const Numbers& numbers, int offset) {
         const double power = std::exp(numbers[offset + kPowerAt]);
         const double scale = 1.0 / std::sqrt(power + 3.0);
-        const double across = std::exp(numbers[offset]) * scale, along = std::exp(numbers[offset + 2]) * scale;
+        const double across = std::exp(numbers[offset]) * scale,
+                     along = std::exp(numbers[offset + 2]) * scale;
         const double det = 1.0 - numbers[offset + 1] * numbers[offset + 3];
         a = static_cast<float>(across);
         b = static_cast<float>(numbers[offset + 1]);
@@ -105,8 +106,9 @@ void differentiate(const Lobe& lobe, const Densities& d, const Chunk& chunk, int
     if (cosine)
         row(kPowerAt).setZero();
     else
-        row(kPowerAt) = lobe.k * weighted *
-                        (1.0f / (lobe.k + 1.0f) + 0.5f * d.logCosine2 - (0.5f / (lobe.k + 3.0f)) * (byLnA + byLnC));
+        row(kPowerAt) =
+            lobe.k * weighted *
+            (1.0f / (lobe.k + 1.0f) + 0.5f * d.logCosine2 - (0.5f / (lobe.k + 3.0f)) * (byLnA + byLnC));
     row(kWeightAt) = weighted;
 }
 
@@ -115,14 +117,17 @@ using Products = Eigen::Matrix<double, kAllNumbers + 1, kAllNumbers + 1>;
 /// Of each row with each before it and itself, four at a time: 13 rows are few for a product of matrices.
 void addProducts(const Rows& rows, Products& products) {
     using Packet = Eigen::Array<float, 4, 1>;
-    const auto packet = [&](int row, Eigen::Index i) { return Eigen::Map<const Packet>(rows.data() + row * kChunk + i); };
+    const auto packet = [&](int row, Eigen::Index i) {
+        return Eigen::Map<const Packet>(rows.data() + row * kChunk + i);
+    };
     for (int i = 0; i <= kAllNumbers; ++i)
         for (int j = 0; j <= i; j += 4) {
             std::array<Packet, 4> sums;
             for (Packet& sum : sums)
                 sum.setZero();
             const int last = kAllNumbers;
-            const std::array<int, 4> others{j, std::min(j + 1, last), std::min(j + 2, last), std::min(j + 3, last)};
+            const std::array<int, 4> others{j, std::min(j + 1, last), std::min(j + 2, last),
+                                            std::min(j + 3, last)};
             for (Eigen::Index at = 0; at < kChunk; at += 4) {
                 const Packet here = packet(i, at);
                 for (size_t n = 0; n < sums.size(); ++n)
@@ -168,7 +173,8 @@ double medianSlopeOf(const std::vector<LobeSample>& samples) {
 Shapes shapesOf(const Numbers& numbers) {
     Shapes shapes;
     for (size_t j = 0; j < kLobes; ++j)
-        std::copy_n(numbers.data() + static_cast<size_t>(kLobeNumbers) * j, shapes[j].size(), shapes[j].begin());
+        std::copy_n(numbers.data() + static_cast<size_t>(kLobeNumbers) * j, shapes[j].size(),
+                    shapes[j].begin());
     return shapes;
 }
 

@@ -9,7 +9,8 @@
 
 namespace lobe::fit {
 
-/// In which fits are sought: of each lobe those of LobeShape5, then the logarithm of its weight over the albedo.
+/// In which fits are sought: of each lobe those of LobeShape5, then the logarithm of its weight over the
+/// albedo.
 inline constexpr int kLobeNumbers = 6;
 inline constexpr int kAllNumbers = kLobeNumbers * static_cast<int>(kLobes);
 inline constexpr int kPowerAt = 4, kWeightAt = 5;
@@ -21,7 +22,8 @@ Shapes shapesOf(const Numbers& numbers);
 /// Samples of a lobe as the search reads them: number by number, in single precision, relative to the albedo.
 class SearchSamples {
 public:
-    /// `drawn`: the number of samples, those included that fell below the horizon and are not among `samples`.
+    /// `drawn`: the number of samples, those included that fell below the horizon and are not among
+    /// `samples`.
     SearchSamples(const std::vector<LobeSample>& samples, size_t drawn);
 
     /// Nothing is reflected: there is nothing to fit.
@@ -43,8 +45,9 @@ struct Slope {
     Curvature curvature = Curvature::Zero();
 };
 
-/// The mean square of the error in units of the mean density of samples and lobe, and of the albedo: an error of the light
-/// of the whole sky is at most its root. Nothing where a lobe is folded over. `cosines`: k is 1 in all.
+/// The mean square of the error in units of the mean density of samples and lobe, and of the albedo: an error
+/// of the light of the whole sky is at most its root. Nothing where a lobe is folded over. `cosines`: k is 1
+/// in all.
 std::optional<double> costAt(const Numbers& numbers, const SearchSamples& samples, bool cosines);
 std::optional<Slope> slopeAt(const Numbers& numbers, const SearchSamples& samples, bool cosines);
 
@@ -55,8 +58,8 @@ struct FitOptions {
     int evaluations = 30;
 };
 
-/// Of columns that span the steps that `options` and the bounds leave: zero for numbers that are fixed, or at a bound that
-/// the gradient pushes them over.
+/// Of columns that span the steps that `options` and the bounds leave: zero for numbers that are fixed, or at
+/// a bound that the gradient pushes them over.
 Curvature freedom(const Numbers& at, const Numbers& gradient, const FitOptions& options);
 /// The numbers after a step, within their bounds.
 Numbers stepped(const Numbers& from, const Numbers& step);

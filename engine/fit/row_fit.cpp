@@ -47,22 +47,20 @@ public:
         };
         accept();
         double damping = 1e-3;
-        int idle = 0, dbg = 0;
+        int idle = 0;
         for (int i = 0; i < kMostSteps && idle < 2; ++i) {
-            ++dbg;
             const std::vector<Numbers> next = step(fit.nodes, damping);
             if (!evaluate(next) || !(objective_ < objective)) {
                 damping *= 8.0;
                 if (damping > 1e5) break;
                 continue;
             }
-            constexpr double kLittle = 1e-3;
+            constexpr double kLittle = 4e-3;
             idle = objective - objective_ < kLittle * objective ? idle + 1 : 0;
             fit.nodes = next;
             damping = std::max(damping * 0.2, 1e-7);
             accept();
         }
-        if (getenv("FITLOG")) fprintf(stderr, "steps %d objective %g\n", dbg, objective);
         evaluate(fit.nodes);
         double sum = 0.0, total = 0.0;
         fit.worst = 0.0;
@@ -85,8 +83,8 @@ private:
     }
 
     Between between(const std::vector<Numbers>& nodes, size_t first) const {
-        return {nodes[first], nodes[first + 1], samples_.node(first).albedo(), samples_.node(first + 1).albedo(),
-                samples_.places[2 * first + 1].albedo()};
+        return {nodes[first], nodes[first + 1], samples_.node(first).albedo(),
+                samples_.node(first + 1).albedo(), samples_.places[2 * first + 1].albedo()};
     }
 
     bool counts(size_t place) const {
@@ -241,7 +239,7 @@ RowFit fitRowLike(const RowFit& other, const RowSamples& ofOther, const RowSampl
 RowFit fitRow(const RowSamples& samples, bool cosines, ThreadTeam& team) {
     RowSearch search(samples, cosines, team);
     // Starts from two ends that come to the same are taken for the best there is.
-    const double kAlike = getenv("ALIKE")?atof(getenv("ALIKE")):1.05;
+    constexpr double kAlike = 1.05;
     RowFit best;
     for (const std::array<double, 2>& pair : kBeginnings) {
         std::array<RowFit, 2> fits;

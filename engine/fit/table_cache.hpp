@@ -9,7 +9,8 @@
 
 namespace lobe::fit {
 
-/// What a table is of: a hash of the model's name, the values (with the model's own table) and the version of the fits.
+/// What a table is of: a hash of the model's name, the values (with the model's own table) and the version of
+/// the fits.
 std::string tableKey(const TableRequest& request);
 
 /// A folder of files, one a key. Files that are damaged, of another key or of another layout count as absent.
