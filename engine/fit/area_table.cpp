@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kFitDraws = 512;      // of each search
 constexpr size_t kWeightDraws = 2048;  // of weights and albedos
-constexpr int kWidthNodes = 24;
+constexpr int kWidthNodes = 28;
 
 /// What one fit stands for: a term on its own, or all terms with the material's colours.
 struct Target {

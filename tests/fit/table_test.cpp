@@ -140,7 +140,7 @@ TEST(AreaTable, WidthsAreInterpolated) {
         const auto [to60, to85] = largestErrors(here, table);
         std::printf("roughness %.3f: %.2f %% to 60 degrees, %.2f %% to 85\n", width, 100.0 * to60,
                     100.0 * to85);
-        EXPECT_LE(to60, 0.06) << width;
+        EXPECT_LE(to60, 0.03) << width;
         EXPECT_LE(to85, 0.1) << width;
     }
 }
