@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <optional>
 
 #include "fit/lobe_samples.hpp"
+#include "fit/row_fit.hpp"
 
 namespace lobe::fit {
 namespace {
 
-constexpr size_t kFitDraws = 1024;     // of each search
-constexpr size_t kWeightDraws = 4096;  // of weights and albedos
-constexpr int kWidthNodes = 24;
-/// Where rows may begin: 69 degrees, where lobes differ most from round ones and are still resolved; 49; and
-/// 0, where they are round.
-constexpr std::array kFreshNodes{30, 20, 0};
-constexpr int kSmoothings = 2;
+constexpr size_t kFitDraws = 512;      // of each search
+constexpr size_t kWeightDraws = 2048;  // of weights and albedos
+constexpr int kWidthNodes = 28;
 
 /// What one fit stands for: a term on its own, or all terms with the material's colours.
 struct Target {
@@ -41,118 +39,12 @@ std::vector<LobeSample> lobeSamples(const std::vector<TermSample>& samples, cons
     return result;
 }
 
-bool isDark(const std::vector<LobeSample>& samples) {
-    return std::all_of(samples.begin(), samples.end(), [](const LobeSample& s) { return !(s.value > 0.0); });
+/// Errors count for more where less is allowed: to 60 degrees of view, then to 85.
+double importanceOf(double oneMinusCos) {
+    constexpr double kSteep = 0.5, kGrazing = 0.0872;  // cosines of 60 and 85 degrees
+    const double cosine = 1.0 - oneMinusCos;
+    return cosine >= kSteep ? 1.0 : cosine >= kGrazing ? 0.4 : 0.15;
 }
-
-LobeFit between(const LobeFit& a, const LobeFit& b, double share) {
-    LobeFit fit = a;
-    for (size_t j = 0; j < kLobes; ++j) {
-        for (size_t i = 0; i < fit.shapes[j].size(); ++i)
-            fit.shapes[j][i] += share * (b.shapes[j][i] - a.shapes[j][i]);
-        fit.weights[j] += share * (b.weights[j] - a.weights[j]);
-    }
-    return fit;
-}
-
-/// One width: fits along the angles of view, each from its neighbour's, so that their numbers change
-/// continuously.
-class Row {
-public:
-    Row(const std::vector<std::vector<TermSample>>& samples, const Target& target, bool cosines) {
-        options_.cosines = cosines;
-        for (const auto& ofNode : samples)
-            samples_.push_back(lobeSamples(ofNode, target));
-    }
-
-    /// Some beginnings lead to a place where two kinds of fit meet, which are no good in between.
-    std::vector<LobeFit> fits(const std::vector<LobeFit>& likeThese) {
-        std::vector<LobeFit> best;
-        double least = HUGE_VAL;
-        for (int node : kFreshNodes) {
-            fitFrom(node, likeThese);
-            const auto [cost, added] = costBetween();
-            if (cost < least) {
-                least = cost;
-                best = fits_;
-            }
-            if (added < kGoodBetween) break;
-        }
-        return best;
-    }
-
-private:
-    /// About 1 % of the light of discs.
-    static constexpr double kGoodBetween = 3e-3;
-
-    void fitFrom(int fresh, const std::vector<LobeFit>& likeThese) {
-        fits_.assign(samples_.size(), {});
-        const auto last = static_cast<int>(samples_.size()) - 1;
-        startAt(fresh, likeThese);
-        for (int n = fresh + 1; n <= last; ++n)
-            improveAt(n, fit(n - 1));
-        for (int n = fresh - 1; n > 0; --n)
-            improveAt(n, fit(n + 1));
-        if (fresh > 0) roundAt0();
-        for (int pass = 0; pass < kSmoothings; ++pass)
-            for (int n = 1; n < last; ++n)
-                improveAt(n, between(fit(n - 1), fit(n + 1), 0.5));
-    }
-
-    /// Largest cost where a node is interpolated from its neighbours, and the most that this adds, up to 85
-    /// degrees.
-    std::pair<double, double> costBetween() {
-        constexpr int kLastChecked = 37;
-        double most = 0.0, added = 0.0;
-        for (int n = 1; n <= kLastChecked; ++n) {
-            const auto& samples = samples_[static_cast<size_t>(n)];
-            if (isDark(samples)) continue;
-            const LobeFit middle = between(fit(n - 1), fit(n + 1), 0.5);
-            const double cost = costOf(middle, samples, kFitDraws, options_.cosines);
-            most = std::max(most, cost);
-            added = std::max(added, cost - fit(n).cost);
-        }
-        return {most, added};
-    }
-
-    LobeFit& fit(int node) { return fits_[static_cast<size_t>(node)]; }
-
-    void improveAt(int node, const LobeFit& start) {
-        const auto& samples = samples_[static_cast<size_t>(node)];
-        fit(node) = isDark(samples) ? start : improve(start, samples, kFitDraws, options_);
-    }
-
-    void startAt(int node, const std::vector<LobeFit>& likeThese) {
-        const auto& samples = samples_[static_cast<size_t>(node)];
-        if (isDark(samples)) return;
-        FitOptions thorough = options_;
-        thorough.evaluations = 150;
-        thorough.roundAbout = node == 0;
-        fit(node) = fitFresh(samples, kFitDraws, thorough);
-        if (likeThese.empty()) return;
-        // The neighbour's kind of fit, unless it is much worse: rows are interpolated too.
-        const LobeFit like = improve(likeThese[static_cast<size_t>(node)], samples, kFitDraws, thorough);
-        constexpr double kMuchWorse = 1.5;
-        if (like.cost < kMuchWorse * fit(node).cost) fit(node) = like;
-    }
-
-    /// No direction is preferred there.
-    void roundAt0() {
-        LobeFit start = fit(1);
-        for (LobeShape5& shape : start.shapes) {
-            shape[0] = shape[2] = 0.5 * (shape[0] + shape[2]);
-            shape[1] = shape[3] = 0.0;
-        }
-        FitOptions options = options_;
-        options.roundAbout = true;
-        if (!isDark(samples_[0])) start = improve(start, samples_[0], kFitDraws, options);
-        fit(0) = start;
-    }
-
-    FitOptions options_;
-    std::vector<std::vector<LobeSample>> samples_;
-    std::vector<LobeFit> fits_;
-};
 
 struct NodeLobe {
     LobeShape5 shape;
@@ -166,22 +58,19 @@ struct Node {
 };
 
 /// Colours of the weights, from more draws than the search has.
-std::vector<NodeLobe> coloured(const Shapes& shapes, const std::vector<TermSample>& samples,
+std::vector<NodeLobe> coloured(const Numbers& fit, const std::vector<TermSample>& samples,
                                const Target& target) {
-    const std::vector<LobeSample> lobe = lobeSamples(samples, target);
+    std::vector<std::vector<double>> colors(3);
+    for (const TermSample& s : samples)
+        for (size_t c = 0; c < colors.size(); ++c)
+            colors[c].push_back(target.of(s.terms)[static_cast<int>(c)]);
+    const Shapes shapes = shapesOf(fit);
+    const std::vector<Weights> weights =
+        weightsFor(shapes, {std::exp(fit[kWeightAt]), std::exp(fit[kLobeNumbers + kWeightAt])},
+                   lobeSamples(samples, target), colors);
     std::vector<NodeLobe> lobes;
-    for (const LobeShape5& shape : shapes)
-        lobes.push_back({shape, glm::dvec3(0.0)});
-    if (isDark(lobe)) return lobes;
-    for (int c = 0; c < 3; ++c) {
-        std::vector<double> values;
-        values.reserve(samples.size());
-        for (const TermSample& s : samples)
-            values.push_back(target.of(s.terms)[c]);
-        const auto weights = weightsFor(shapes, lobe, kWeightDraws, values);
-        for (size_t j = 0; j < kLobes; ++j)
-            lobes[j].weight[c] = weights[j];
-    }
+    for (size_t j = 0; j < kLobes; ++j)
+        lobes.push_back({shapes[j], {weights[0][j], weights[1][j], weights[2][j]}});
     return lobes;
 }
 
@@ -191,6 +80,62 @@ double baseFactor(const std::vector<TermSample>& samples) {
         sum += s.terms.base * s.cosine / (glm::pi<double>() * s.density);
     return sum / static_cast<double>(kWeightDraws);
 }
+
+/// The most that a term has of the light among all, where each weighs 0.04, as of glass, to 1. Not below a
+/// hundredth.
+double shareOf(const std::vector<Target>& targets, size_t target, const std::vector<TermSample>& samples) {
+    constexpr double kLeastWeight = 0.04, kLeastShare = 0.01;
+    double own = 0.0, others = 0.0;
+    for (const TermSample& s : samples)
+        for (size_t t = 0; t < targets.size(); ++t)
+            (t == target ? own : others) += meanOf(targets[t].of(s.terms)) / s.density;
+    return own > 0.0 ? std::max(own / (own + kLeastWeight * others), kLeastShare) : 1.0;
+}
+
+/// A row's terms at its nodes and halfway between them.
+class RowTerms {
+public:
+    RowTerms(const Brdf& brdf, const ParameterValues& values, ThreadTeam& team)
+        : places_(2 * kAngleNodes - 1) {
+        static const std::vector<glm::dvec3> draws = spreadDraws(kWeightDraws);
+        const auto first = std::span(draws).first(kFitDraws), rest = std::span(draws).subspan(kFitDraws);
+        team.each(places_.size(), [&](size_t p) {
+            const View view(oneMinusCosAt(0.5 * static_cast<double>(p)));
+            Place& place = places_[p];
+            place.searched = sampleTerms(brdf, values, view, first);
+            if (p % 2 != 0) return;
+            place.all = place.searched;
+            const std::vector<TermSample> more = sampleTerms(brdf, values, view, rest);
+            place.all.insert(place.all.end(), more.begin(), more.end());
+        });
+    }
+
+    /// For weights and albedos.
+    const std::vector<TermSample>& node(size_t n) const { return places_[2 * n].all; }
+
+    /// Of one of the targets.
+    RowSamples of(const std::vector<Target>& targets, size_t target, ThreadTeam& team) const {
+        std::vector<std::optional<SearchSamples>> places(places_.size());
+        std::vector<double> share(places_.size());
+        team.each(places.size(), [&](size_t p) {
+            places[p].emplace(lobeSamples(places_[p].searched, targets[target]), kFitDraws);
+            share[p] = shareOf(targets, target, places_[p].searched);
+        });
+        RowSamples samples;
+        for (size_t p = 0; p < places.size(); ++p) {
+            samples.places.push_back(std::move(*places[p]));
+            samples.importance.push_back(importanceOf(oneMinusCosAt(0.5 * static_cast<double>(p))) *
+                                         share[p] * share[p]);
+        }
+        return samples;
+    }
+
+private:
+    struct Place {
+        std::vector<TermSample> searched, all;
+    };
+    std::vector<Place> places_;
+};
 
 void append(std::vector<float>& texels, std::initializer_list<double> numbers) {
     for (double number : numbers)
@@ -247,7 +192,7 @@ int tableTexels(const TableRequest& request) {
     return 1 + (request.widthVaries ? kWidthNodes : 1) * kAngleNodes * table.nodeTexels();
 }
 
-double oneMinusCosAt(int node) {
+double oneMinusCosAt(double node) {
     const double last = std::acos(std::sqrt(kLeastCosine));
     const double sine = std::sin(last * node / (kAngleNodes - 1));
     return sine * sine;
@@ -260,6 +205,11 @@ double angleCoordinate(double oneMinusCos) {
 }
 
 AreaTable makeTable(const TableRequest& request) {
+    ThreadTeam team;
+    return makeTable(request, team);
+}
+
+AreaTable makeTable(const TableRequest& request, ThreadTeam& team) {
     const AreaModel& area = *request.brdf->area;
     AreaTable table;
     table.cosines = area.powerTail;
@@ -271,7 +221,7 @@ AreaTable makeTable(const TableRequest& request) {
     const double low = std::log(area.widths.first), high = std::log(area.widths.second);
     table.terms = static_cast<int>(targetsOf(request, request.values).size());
     append(table.texels, {kAngleNodes, double(widths), low, widths > 1 ? (widths - 1) / (high - low) : 0.0});
-    std::vector<std::vector<LobeFit>> previous(static_cast<size_t>(table.terms));
+    std::vector<std::optional<std::pair<RowSamples, RowFit>>> previous(static_cast<size_t>(table.terms));
     std::vector<std::vector<Node>> rows(static_cast<size_t>(widths));
     // From wide to narrow: wide lobes differ most from round ones.
     const bool widestLast = area.width != "shininess";
@@ -279,23 +229,23 @@ AreaTable makeTable(const TableRequest& request) {
         const int row = widestLast ? widths - 1 - i : i;
         ParameterValues values = request.values;
         if (request.widthVaries) values[widthOffset] = std::exp(low + (high - low) * row / (widths - 1));
-        std::vector<std::vector<TermSample>> few, many;
-        for (int n = 0; n < kAngleNodes; ++n) {
-            const View view(oneMinusCosAt(n));
-            few.push_back(sampleTerms(*request.brdf, values, view, kFitDraws));
-            many.push_back(sampleTerms(*request.brdf, values, view, kWeightDraws));
-        }
+        const RowTerms terms(*request.brdf, values, team);
         std::vector<Node>& nodes = rows[static_cast<size_t>(row)];
         nodes.resize(kAngleNodes);
-        for (size_t n = 0; n < nodes.size(); ++n)
-            if (area.baseVaries) nodes[n].base = baseFactor(many[n]);
+        if (area.baseVaries)
+            team.each(nodes.size(), [&](size_t n) { nodes[n].base = baseFactor(terms.node(n)); });
         const std::vector<Target> targets = targetsOf(request, values);
         for (size_t t = 0; t < targets.size(); ++t) {
-            const std::vector<LobeFit> fits = Row(few, targets[t], table.cosines).fits(previous[t]);
+            RowSamples samples = terms.of(targets, t, team);
+            RowFit fit = previous[t] ? fitRowLike(previous[t]->second, previous[t]->first, samples,
+                                                  table.cosines, team)
+                                     : fitRow(samples, table.cosines, team);
+            std::vector<std::vector<NodeLobe>> lobes(nodes.size());
+            team.each(nodes.size(),
+                      [&](size_t n) { lobes[n] = coloured(fit.nodes[n], terms.node(n), targets[t]); });
             for (size_t n = 0; n < nodes.size(); ++n)
-                for (const NodeLobe& lobe : coloured(fits[n].shapes, many[n], targets[t]))
-                    nodes[n].lobes.push_back(lobe);
-            previous[t] = fits;
+                nodes[n].lobes.insert(nodes[n].lobes.end(), lobes[n].begin(), lobes[n].end());
+            previous[t] = {std::move(samples), std::move(fit)};
         }
     }
     for (const std::vector<Node>& nodes : rows)

@@ -15,7 +15,7 @@ DiscError discError(const TableRequest& request, const AreaTable& table, double 
     const Brdf& brdf = *request.brdf;
     const View view(oneMinusCos);
     const std::vector<TermSample> samples =
-        sampleTerms(brdf, request.values, view, options.draws, options.seed);
+        sampleTerms(brdf, request.values, view, spreadDraws(options.draws, options.seed));
     const AreaWeights weights = brdf.area->weights(request.values);
     const int widthIndex = brdf.area->width.empty() ? -1 : brdf.parameterIndex(brdf.area->width);
     const double width =

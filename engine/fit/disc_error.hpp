@@ -1,4 +1,5 @@
-/// How far a table is from its model: lights that are discs in the sky, as the fit and as the model reflect them.
+/// How far a table is from its model: lights that are discs in the sky, as the fit and as the model reflect
+/// them.
 #pragma once
 
 #include "fit/area_table.hpp"
@@ -18,8 +19,8 @@ struct DiscOptions {
     uint64_t seed = 7;
 };
 
-/// Of the fitted part, without Lambert's, for the colours in `values`, at one angle of view and width. The error is
-/// integrated by samples of the difference, so that it has no noise where there is none.
+/// Of the fitted part, without Lambert's, for the colours in `values`, at one angle of view and width. The
+/// error is integrated by samples of the difference, so that it has no noise where there is none.
 DiscError discError(const TableRequest& request, const AreaTable& table, double oneMinusCos,
                     const DiscOptions& options = {});
 

@@ -1,8 +1,7 @@
-/// Fitting two transformed cosine powers to a lobe that samples describe.
+/// Two transformed cosine powers that stand for a lobe, and their weights.
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "fit/transformed_lobe.hpp"
@@ -29,35 +28,14 @@ inline constexpr double kLowestPower = 1.0, kHighestPower = 128.0;
 
 TransformedLobe lobeOf(const LobeShape5& shape);
 
-struct LobeFit {
-    Shapes shapes;
-    std::array<double, kLobes> weights{};
-    double cost =
-        0.0;  ///< mean square of the error in units of the density of samples and the lobe, and of its albedo
-};
+/// Weights of one colour.
+using Weights = std::array<double, kLobes>;
 
-struct FitOptions {
-    bool cosines = false;     ///< k = 1, for lobes with tails of power laws
-    bool roundAbout = false;  ///< a = c, b = d = 0, for normal incidence
-    double pull = 5e-3;       ///< towards the start, in units of the root of the cost per unit of a number
-    int evaluations = 40;
-};
-
-/// The fit nearest to `start` of least squared error. `drawn`: the number of samples, those included that
-/// fell below the horizon and are not among `samples`.
-LobeFit improve(const LobeFit& start, const std::vector<LobeSample>& samples, size_t drawn,
-                const FitOptions& options);
-
-/// The cost of a fit as it is.
-double costOf(const LobeFit& fit, const std::vector<LobeSample>& samples, size_t drawn, bool cosines);
-
-/// The best of fits from several starts.
-LobeFit fitFresh(const std::vector<LobeSample>& samples, size_t drawn, const FitOptions& options);
-
-/// Least squares weights, at least 0, of the given shapes for `values` at the samples, scaled so that what
-/// lies above the horizon is the albedo of `values`. `samples` say where and how densely, and the lobe that
-/// errors are relative to.
-std::array<double, kLobes> weightsFor(const Shapes& shapes, const std::vector<LobeSample>& samples,
-                                      size_t drawn, const std::vector<double>& values);
+/// Weights for each of several colours, whose values at the samples are given: `ofMean` for the mean of the
+/// colours, that the samples hold; for the others by least squares of what they differ by from their share of
+/// it. At least 0, and scaled so that what lies above the horizon is the albedo of the colour.
+std::vector<Weights> weightsFor(const Shapes& shapes, const Weights& ofMean,
+                                const std::vector<LobeSample>& samples,
+                                const std::vector<std::vector<double>>& colors);
 
 }  // namespace lobe::fit

@@ -15,8 +15,12 @@ struct TermSample {
     AreaTerms terms;
 };
 
-/// Terms at the directions above the horizon among `drawn` ones, spread evenly and alike for all views.
+/// Numbers in [0, 1) that directions are drawn with, spread evenly; the first ones of a longer list are those
+/// of a shorter.
+std::vector<glm::dvec3> spreadDraws(size_t count, uint64_t seed = 1);
+
+/// Terms at those of the directions drawn that are above the horizon.
 std::vector<TermSample> sampleTerms(const Brdf& brdf, std::span<const double> values, const View& view,
-                                    size_t drawn, uint64_t seed = 1);
+                                    std::span<const glm::dvec3> draws);
 
 }  // namespace lobe::fit

@@ -1,12 +1,10 @@
 #include "fit/table_cache.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <thread>
 
 #include "base/atomic_file.hpp"
 #include "base/content_hash.hpp"
@@ -122,19 +120,12 @@ std::vector<AreaTable> TableCache::tables(const std::vector<TableRequest>& reque
     std::vector<size_t> jobs;
     for (const auto& [key, index] : missing)
         jobs.push_back(index);
-    std::atomic<size_t> next = 0;
-    const auto work = [&] {
-        for (size_t job = next++; job < jobs.size(); job = next++) {
-            result[jobs[job]] = makeTable(normalised(requests[jobs[job]]));
-            keep(keys[jobs[job]], result[jobs[job]]);
+    if (!jobs.empty()) {
+        ThreadTeam team;
+        for (size_t job : jobs) {
+            result[job] = makeTable(normalised(requests[job]), team);
+            keep(keys[job], result[job]);
         }
-    };
-    const size_t count = std::min<size_t>(jobs.size(), std::max(1U, std::thread::hardware_concurrency()));
-    {
-        std::vector<std::jthread> threads;
-        for (size_t i = 1; i < count; ++i)
-            threads.emplace_back(work);
-        work();
     }
     for (size_t i = 0; i < requests.size(); ++i)
         if (result[i].texels.empty()) result[i] = result[missing.at(keys[i])];

@@ -9,7 +9,8 @@
 
 namespace lobe::fit {
 
-/// What a table is of: a hash of the model's name, the values (with the model's own table) and the version of the fits.
+/// What a table is of: a hash of the model's name, the values (with the model's own table) and the version of
+/// the fits.
 std::string tableKey(const TableRequest& request);
 
 /// A folder of files, one a key. Files that are damaged, of another key or of another layout count as absent.
@@ -24,7 +25,7 @@ public:
     void keep(const std::string& key, const AreaTable& table) const;
     /// From the folder, else fitted and kept.
     AreaTable table(const TableRequest& request) const;
-    /// Several, of which those that are missing are fitted in parallel.
+    /// Several; those that are missing are fitted, each on all cores.
     std::vector<AreaTable> tables(const std::vector<TableRequest>& requests) const;
 
 private:

@@ -20,6 +20,7 @@ double TransformedLobe::density(const glm::dvec3& w) const {
     const glm::dvec3 v = map(w);
     if (v.z <= 0.0) return 0.0;
     const double length2 = glm::dot(v, v);
+    if (k == 1.0) return glm::one_over_pi<double>() * (a - b * d) * c * v.z / (length2 * length2);
     const double tan2 = (v.x * v.x + v.y * v.y) / (v.z * v.z);
     return (k + 1.0) / glm::two_pi<double>() * std::exp(-0.5 * k * std::log1p(tan2)) * (a - b * d) * c /
            (length2 * std::sqrt(length2));

@@ -84,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Aim{"ggx", "alphaX", 0.4, 0.03, 0.1}, Aim{"ggx", "alphaX", 0.7, 0.03, 0.1},
                     Aim{"metallic_roughness", "roughness", 0.5, 0.03, 0.1},
                     Aim{"beckmann_smith", "m", 0.02, 0.03, 0.07}, Aim{"beckmann_smith", "m", 0.1, 0.03, 0.07},
-                    Aim{"beckmann_smith", "m", 0.4, 0.03, 0.07}, Aim{"cook_torrance", "m", 0.3, 0.03, 0.07},
+                    Aim{"beckmann_smith", "m", 0.4, 0.03, 0.07}, Aim{"beckmann_smith", "m", 1.0, 0.03, 0.07},
+                    Aim{"cook_torrance", "m", 0.3, 0.03, 0.07}, Aim{"cook_torrance", "m", 1.0, 0.03, 0.07},
                     Aim{"ward", "alpha", 0.15, 0.03, 0.07}, Aim{"ward", "alpha", 0.4, 0.03, 0.07},
                     Aim{"phong", "shininess", 20.0, 0.03, 0.07},
                     Aim{"phong", "shininess", 1000.0, 0.03, 0.07},
@@ -99,20 +100,49 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(AreaTable, KeepsTheAlbedo) {
     const TableRequest request = requestFor("ggx", "alphaX", 0.3);
     const AreaTable table = makeTable(request);
+    const std::vector<glm::dvec3> draws = spreadDraws(20000, 5);
     for (int node = 0; node + 4 < kAngleNodes; ++node)
         for (double place : {0.0, 0.5}) {
             const double angle = (node + place) / (kAngleNodes - 1) * std::acos(std::sqrt(kLeastCosine));
             const double oneMinusCos = std::sin(angle) * std::sin(angle);
             const TablePoint point = at(table, oneMinusCos, 1.0);
             double exact = 0.0, fitted = 0.0;
-            for (const TermSample& s :
-                 sampleTerms(*request.brdf, request.values, View(oneMinusCos), 20000, 5)) {
+            for (const TermSample& s : sampleTerms(*request.brdf, request.values, View(oneMinusCos), draws)) {
                 exact += (s.terms.terms[0].g + s.terms.terms[1].g) / s.density;
                 for (const TableLobe& lobe : point.lobes)
                     fitted += lobe.weight.g * lobe.lobe.density(s.w) / s.density;
             }
             EXPECT_NEAR(fitted / exact, 1.0, place == 0.0 ? 0.01 : 0.03) << degreesOf(oneMinusCos);
         }
+}
+
+/// The same to the last bit however many threads share the work.
+TEST(AreaTable, IsAlikeOnAnyNumberOfThreads) {
+    const TableRequest request = requestFor("ggx", "alphaX", 0.2);
+    ThreadTeam one(1), three(3);
+    EXPECT_EQ(makeTable(request, one).texels, makeTable(request, three).texels);
+}
+
+/// Colours and width vary: two terms, each fitted for itself, at widths of the table and halfway between
+/// them. What is interpolated twice may have twice the error of a table of one width to 60 degrees.
+TEST(AreaTable, WidthsAreInterpolated) {
+    TableRequest request = requestFor("metallic_roughness", "metallic", 0.0);
+    request.colorsVary = request.widthVaries = true;
+    const AreaTable table = makeTable(normalised(request));
+    const auto [low, high] = request.brdf->area->widths;
+    const int last = table.widths() - 1;
+    for (double place :
+         {0.0, 0.3 * last + 0.5, 0.6 * last, double(last) - 2.5, double(last) - 0.5, double(last)}) {
+        const double width = low * std::pow(high / low, place / last);
+        TableRequest here = request;
+        here.values[static_cast<size_t>(
+            request.brdf->valueOffset(request.brdf->parameterIndex(request.brdf->area->width)))] = width;
+        const auto [to60, to85] = largestErrors(here, table);
+        std::printf("roughness %.3f: %.2f %% to 60 degrees, %.2f %% to 85\n", width, 100.0 * to60,
+                    100.0 * to85);
+        EXPECT_LE(to60, 0.03) << width;
+        EXPECT_LE(to85, 0.1) << width;
+    }
 }
 
 /// Numbers change little from one angle to the next: an image of a plane has no edges from the table.
