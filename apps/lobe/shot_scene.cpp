@@ -122,7 +122,8 @@ json changesOf(const Scene& scene, const Settings& settings) {
     if (const std::string model = modelForAll(scene, settings); !model.empty()) changes["brdf"] = model;
     if (const json& values = settings.get("brdf_set"); !values.is_null()) changes["brdf_set"] = values;
     if (const json& bands = settings.get("bands"); bands != kRgb) changes["bands"] = bands;
-    for (const auto& [key, value] : environmentChanges(scene, settings).items())
+    const json environment = environmentChanges(scene, settings);
+    for (const auto& [key, value] : environment.items())
         changes[key] = value;
     if (needsLight(scene, settings)) {
         const glm::dmat4 pose =

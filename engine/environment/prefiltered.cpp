@@ -10,11 +10,13 @@ namespace lobe::environment {
 namespace {
 
 constexpr int kIrradianceSize = 64;
-constexpr int kTableWidths = 25;
+constexpr int kTableWidths = 17;
 constexpr int kLeastLayer = 24;
+/// Larger layers are read in rings, smaller ones are sums over the whole sphere.
+constexpr int kLargestSummed = 100;
 /// Squares along a side of a layer times its lobe's spread: about a third of it is one square.
-constexpr double kSquaresPerSpread = 8.0;
-/// Of each layer's lobe over the last one's; below this spread, where nothing is seen of the difference, twice that.
+constexpr double kSquaresPerSpread = 7.0;
+/// Of each layer's lobe over the last one's; below this spread, where little is seen of the difference, 1.4 times that.
 constexpr double kStep = 1.45, kFineSpread = 0.02;
 
 /// A lobe that the map is blurred with.
@@ -79,7 +81,7 @@ std::vector<Layer> layersFor(const Request& request, const std::vector<Row>& row
         const bool end = i + 1 == sorted.size();
         // All that are finer than the map's squares show the map itself.
         if (!end && spreadOf(*sorted[i + 1]) < finest) continue;
-        if (!layers.empty() && i > 0 && !end && spread < last * (spread < kFineSpread ? 2.0 : 1.0) * kStep) continue;
+        if (!layers.empty() && i > 0 && !end && spread < last * (spread < kFineSpread ? 1.4 : 1.0) * kStep) continue;
         if (end && i > 0 && spread < last * 1.02) continue;
         layers.push_back({std::move(kernel), spread});
         last = spread;
@@ -109,19 +111,6 @@ private:
     int width_, x_ = 0, y_ = 0, shelf_ = 0;
 };
 
-/// The square of a border square: octahedral maps fold over at each side's middle.
-std::pair<int, int> folded(int x, int y, int size) {
-    if (x < 0 || x >= size) {
-        x = std::clamp(x, 0, size - 1);
-        y = size - 1 - y;
-    }
-    if (y < 0 || y >= size) {
-        y = std::clamp(y, 0, size - 1);
-        x = size - 1 - x;
-    }
-    return {x, y};
-}
-
 class Picture {
 public:
     explicit Picture(Prefiltered& result) : result_(result) {
@@ -146,7 +135,7 @@ public:
         });
         for (int i = -1; i <= size; ++i)
             for (const auto& [x, y] : {std::pair(i, -1), std::pair(i, size), std::pair(-1, i), std::pair(size, i)}) {
-                const auto [fromX, fromY] = folded(x, y, size);
+                const auto [fromX, fromY] = foldedSquare(x, y, size);
                 std::copy_n(at(square.x + 1 + fromX, square.y + 1 + fromY), 4,
                             at(square.x + 1 + x, square.y + 1 + y));
             }
@@ -217,7 +206,10 @@ Prefiltered prefiltered(const RadianceTree& tree, const Request& request) {
     for (size_t i = 0; i < layers.size(); ++i) {
         const Square& square = result.layers[i];
         const bool itself = layers[i].spread < finest && square.size == tree.size();
+        const RadianceTree::Rings rings(tree, layers[i].kernel);
         picture.fill(square, [&](int x, int y) {
+            if (square.size > kLargestSummed && !itself)
+                return rings.about(directionOf(x, y, square.size));
             if (itself) return glm::dvec3(tree.radiance(x, y));
             return tree.blurred(directionOf(x, y, square.size), layers[i].kernel);
         });

@@ -8,20 +8,22 @@
 #include <span>
 #include <thread>
 
+#include "math/sphere.hpp"
+
 namespace lobe::environment {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kLeast = 32, kMost = 1024;
 
-/// How far a kernel may change, as a power of e, across half of a square that counts as a point.
-constexpr float kTolerance = 0.6F;
-/// Of the mean of the whole sum, below which the light of a square counts as at one place.
-constexpr float kNegligible = 2e-5F;
+/// A square counts as a point where the kernel changes by less than this power of e across half of it, or where what
+/// that adds to the sum, or to the sum of weights, is below these shares of the mean and of the whole.
+constexpr float kTolerance = 0.2F;
+constexpr float kOfMean = 4e-4F, kOfWeights = 1e-3F;
 
 int sizeFor(const EnvironmentMap& map) {
     int size = kLeast;
-    while (size < kMost && size < 0.6 * map.width())
+    while (size < kMost && size < 0.45 * map.width())
         size *= 2;
     return size;
 }
@@ -29,6 +31,10 @@ int sizeFor(const EnvironmentMap& map) {
 float brightness(const glm::vec3& rgb) {
     return (rgb.r + rgb.g + rgb.b) / 3.0F;
 }
+
+/// Places around each ring.
+constexpr int kAround = 12;
+constexpr float kStepCosine = 0.8660254037844387F, kStepSine = 0.5F;
 
 /// Of squares that make up one.
 RadianceTree::Node joined(std::span<const RadianceTree::Node> parts) {
@@ -58,6 +64,18 @@ void inParallel(size_t count, const std::function<void(size_t)>& work) {
     for (size_t i = 1; i < std::min(count, most); ++i)
         threads.emplace_back(run);
     run();
+}
+
+std::pair<int, int> foldedSquare(int x, int y, int size) {
+    if (x < 0 || x >= size) {
+        x = std::clamp(x, 0, size - 1);
+        y = size - 1 - y;
+    }
+    if (y < 0 || y >= size) {
+        y = std::clamp(y, 0, size - 1);
+        x = size - 1 - x;
+    }
+    return {x, y};
 }
 
 glm::dvec3 octahedralDirection(glm::dvec2 p) {
@@ -111,6 +129,12 @@ RadianceTree::RadianceTree(const EnvironmentMap& map) : size_(sizeFor(map)) {
             }
         levels_.push_back(std::move(level));
     }
+    for (const std::vector<Node>& level : levels_) {
+        std::vector<glm::vec3>& mean = radiance_.emplace_back();
+        mean.reserve(level.size());
+        for (const Node& node : level)
+            mean.push_back(node.energy / node.solidAngle);
+    }
     glm::dvec3 sum(0.0);
     double sphere = 0.0;
     for (std::vector<Node>& level : levels_)
@@ -135,7 +159,7 @@ glm::dvec3 RadianceTree::blurred(const glm::vec3& axis, const ZonalKernel& kerne
     std::array<Place, 64> stack;
     size_t depth = 0;
     const auto top = static_cast<uint16_t>(levels_.size() - 1);
-    const float negligible = kNegligible * brightness(glm::vec3(mean_));
+    const float negligible = kOfMean * brightness(glm::vec3(mean_));
     glm::dvec3 sum(0.0);
     double weights = 0.0;
     for (uint16_t i = 0; i < 16; ++i) {
@@ -149,9 +173,10 @@ glm::dvec3 RadianceTree::blurred(const glm::vec3& axis, const ZonalKernel& kerne
             if (at.level > 0) {
                 const ZonalKernel::Bound bound = kernel.near(chord2, node.radius);
                 if (bound.value == 0.0F) continue;
-                if (node.radius * bound.slope > kTolerance &&
-                    (bound.value * brightness(node.energy) > negligible ||
-                     bound.value * node.solidAngle > kNegligible)) {
+                const float change = node.radius * bound.slope;
+                const float error = bound.value * std::min(change * change / 6.0F, 1.0F);
+                if (change > kTolerance && (error * brightness(node.energy) > negligible ||
+                                            error * node.solidAngle > kOfWeights)) {
                     for (int q = 0; q < 4; ++q)
                         stack[depth++] = {static_cast<uint16_t>(at.level - 1),
                                           static_cast<uint16_t>(2 * at.x + (q & 1)),
@@ -165,6 +190,69 @@ glm::dvec3 RadianceTree::blurred(const glm::vec3& axis, const ZonalKernel& kerne
         }
     }
     return weights > 0.0 ? sum / weights : mean_;
+}
+
+glm::vec3 RadianceTree::read(size_t level, const glm::vec3& d) const {
+    const int side = size_ >> level;
+    const float norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    glm::vec2 p(d.x / norm, d.y / norm);
+    if (d.z < 0.0F)
+        p = {(1.0F - std::abs(d.y) / norm) * (d.x >= 0.0F ? 1.0F : -1.0F),
+             (1.0F - std::abs(d.x) / norm) * (d.y >= 0.0F ? 1.0F : -1.0F)};
+    const glm::vec2 at = (p * 0.5F + 0.5F) * static_cast<float>(side) - 0.5F;
+    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+    const float s = at.x - static_cast<float>(x), t = at.y - static_cast<float>(y);
+    const auto texel = [&](int i, int j) {
+        const auto [fx, fy] = foldedSquare(i, j, side);
+        return radiance_[level][static_cast<size_t>(fy) * static_cast<size_t>(side) + static_cast<size_t>(fx)];
+    };
+    return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), s), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), s), t);
+}
+
+RadianceTree::Rings::Rings(const RadianceTree& tree, const ZonalKernel& kernel) : tree_(tree) {
+    // Shares of the kernel, finer towards its tail, which reaches far.
+    constexpr std::array kShares{0.0, 0.08, 0.2, 0.32, 0.44, 0.55, 0.66, 0.76, 0.85, 0.92, 0.965, 0.99, 1.0};
+    constexpr int kSteps = 4000;
+    std::array<double, kSteps + 1> chord2{}, within{};
+    for (int i = 1; i <= kSteps; ++i) {
+        const auto n = static_cast<size_t>(i);
+        chord2[n] = std::exp2(-36.0 + 38.0 * i / kSteps);
+        const double middle = 0.5 * (chord2[n] + chord2[n - 1]);
+        within[n] = within[n - 1] +
+                    kPi * (chord2[n] - chord2[n - 1]) * static_cast<double>(kernel.at(static_cast<float>(middle)));
+    }
+    const auto at = [&](double share) {
+        const auto found = std::lower_bound(within.begin(), within.end(), share * within.back());
+        return chord2[static_cast<size_t>(std::min(found - within.begin(), std::ptrdiff_t{kSteps}))];
+    };
+    for (size_t i = 0; i + 1 < kShares.size(); ++i) {
+        const double low = at(kShares[i]), high = at(kShares[i + 1] == 1.0 ? 0.9995 : kShares[i + 1]);
+        const double middle = std::min(at(0.5 * (kShares[i] + kShares[i + 1])), 4.0);
+        const double part = kPi * (high - low) / kAround;
+        const double cosine = 1.0 - middle / 2.0;
+        double level = 0.5 * std::log2(std::max(part, 1e-12) * tree.size_ * tree.size_ / (4.0 * kPi));
+        level = std::clamp(std::floor(level + 0.5), 0.0, static_cast<double>(tree.levels_.size() - 1));
+        rings_.push_back({static_cast<float>(std::sqrt(std::max(middle * (1.0 - middle / 4.0), 0.0))),
+                          static_cast<float>(cosine), static_cast<float>(kShares[i + 1] - kShares[i]),
+                          static_cast<float>(2.0 * kPi / kAround * std::fmod(0.618034 * static_cast<double>(i), 1.0)),
+                          static_cast<size_t>(level)});
+    }
+}
+
+glm::dvec3 RadianceTree::Rings::about(const glm::vec3& axis) const {
+    const glm::mat3 frame(frameAbout(glm::dvec3(axis)));
+    glm::vec3 sum(0.0F);
+    for (const Ring& ring : rings_) {
+        glm::vec3 part(0.0F);
+        glm::vec2 turned(std::cos(ring.phase), std::sin(ring.phase));
+        for (int i = 0; i < kAround; ++i) {
+            part += tree_.read(ring.level, ring.cosine * frame[2] +
+                                               ring.sine * (turned.x * frame[0] + turned.y * frame[1]));
+            turned = {turned.x * kStepCosine - turned.y * kStepSine, turned.x * kStepSine + turned.y * kStepCosine};
+        }
+        sum += part * (ring.share / kAround);
+    }
+    return glm::dvec3(sum);
 }
 
 }  // namespace lobe::environment

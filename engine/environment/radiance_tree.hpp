@@ -16,6 +16,9 @@ void inParallel(size_t count, const std::function<void(size_t)>& work);
 /// The octahedral square of pass/environment.glsl: in [-1, 1]^2, about z.
 glm::dvec3 octahedralDirection(glm::dvec2 p);
 
+/// The square that one just outside the map's border is: each side folds over at its middle.
+std::pair<int, int> foldedSquare(int x, int y, int size);
+
 /// Squares of the octahedral map, each with its light as a whole and where most of it comes from. Directions are the
 /// map's, radiance is EnvironmentMap::relative's.
 class RadianceTree {
@@ -30,6 +33,22 @@ public:
     /// kernel changes, over the sum of the weights, so that a constant map stays as it is.
     glm::dvec3 blurred(const glm::vec3& axis, const ZonalKernel& kernel) const;
 
+    /// Nearly the same, far quicker for narrow kernels: a sum over rings about the axis that hold given shares of the
+    /// kernel, each read at twelve places from the level whose squares are as large as the parts of the ring.
+    class Rings {
+    public:
+        Rings(const RadianceTree& tree, const ZonalKernel& kernel);
+        glm::dvec3 about(const glm::vec3& axis) const;
+
+    private:
+        struct Ring {
+            float sine, cosine, share, phase;
+            size_t level;
+        };
+        const RadianceTree& tree_;
+        std::vector<Ring> rings_;
+    };
+
     struct Node {
         glm::vec3 direction;  ///< unit, of the middle of its light
         float radius;         ///< of a circle about it, rad
@@ -40,7 +59,10 @@ public:
     const glm::dvec3& mean() const { return mean_; }
 
 private:
+    /// Bilinear, of one level.
+    glm::vec3 read(size_t level, const glm::vec3& direction) const;
     int size_ = 0;
+    std::vector<std::vector<glm::vec3>> radiance_;  ///< of each level
     std::vector<std::vector<Node>> levels_;  ///< from the finest to 4 x 4
     glm::dvec3 mean_{0.0};
 };

@@ -11,7 +11,7 @@ namespace lobe::environment {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr size_t kDraws = 4096;
+constexpr size_t kDraws = 2048;
 constexpr int kBaseGrid = 24;  ///< points along each side of the square, of the base's mean
 
 /// How much each term counts where one number must stand for all.

@@ -14,7 +14,7 @@
 namespace lobe::environment {
 
 /// Angles at equal steps of sqrt(N.V), from 1 / kAngles of the first to 1.
-inline constexpr int kAngles = 48;
+inline constexpr int kAngles = 40;
 double cosineOfNode(int node);
 
 struct SplitNode {

@@ -60,10 +60,11 @@ ZonalKernel::ZonalKernel(const std::function<double(double)>& weight) {
     for (size_t i = 0; i < kCount; ++i) {
         grow(all, own[i]);
         upTo_[i] = all;
-        // Twice the angle is four times the squared chord, two octaves.
-        for (size_t j = i - std::min<size_t>(i, 2 * kPerOctave); j <= std::min<size_t>(i + 2 * kPerOctave, kCount - 1);
-             ++j)
-            grow(window_[i], own[j]);
+        for (size_t w = 0; w < kWindows; ++w) {
+            const size_t reach = (size_t{2} << w) + 1;
+            for (size_t j = i - std::min(i, reach); j <= std::min<size_t>(i + reach, kCount - 1); ++j)
+                grow(windows_[w][i], own[j]);
+        }
     }
 }
 
@@ -75,7 +76,8 @@ float ZonalKernel::at(float chord2) const {
 }
 
 ZonalKernel::Bound ZonalKernel::near(float chord2, float reach) const {
-    if (chord2 >= 4.0F * reach * reach) return window_[static_cast<size_t>(place(chord2))];
+    for (size_t w = 0; w < kWindows; ++w)
+        if (reach * reach <= kReach[w] * kReach[w] * chord2) return windows_[w][static_cast<size_t>(place(chord2))];
     const float far = std::sqrt(chord2) + reach;
     return upTo_[std::min(static_cast<size_t>(place(far * far)) + 1, static_cast<size_t>(kCount - 1))];
 }

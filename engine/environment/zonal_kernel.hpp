@@ -29,7 +29,10 @@ private:
     static constexpr int kPerOctave = 16, kOctaves = 42, kCount = kPerOctave * kOctaves;
     static float place(float chord2);
     std::array<float, kCount> value_{};
-    std::array<Bound, kCount> window_{};   ///< over half to twice the angle
+    /// Over 2^i / 16 octaves of the squared chord to each side, i from 1 on: all within reach <= kReach[i - 1] angle.
+    static constexpr size_t kWindows = 5;
+    static constexpr std::array<float, kWindows> kReach{0.042F, 0.083F, 0.159F, 0.293F, 0.5F};
+    std::array<std::array<Bound, kCount>, kWindows> windows_{};
     std::array<Bound, kCount> upTo_{};  ///< over all angles up to this one
     double spread_ = 0.0;
 };

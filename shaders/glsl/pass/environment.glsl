@@ -37,7 +37,7 @@ vec3 environment_mirrored(LightReceiver r, MODEL_PARAMS params)
 #ifdef ENVIRONMENT_PREFILTERED
 #include "common/octahedral.glsl"
 
-const float ENVIRONMENT_ANGLES = 48.0;  // of the table, at equal steps of sqrt(N.V)
+const float ENVIRONMENT_ANGLES = 40.0;  // of the table, at equal steps of sqrt(N.V)
 
 uniform sampler2D uEnvLight;
 uniform mat3 uEnvFromWorld;
@@ -200,8 +200,9 @@ vec3 environment_sampled(LightReceiver r, MODEL_PARAMS params)
         if (wi.z > 0.0)
             sum += environment_from(r, params, drawn.xyz, texelFetch(uEnvDirections, row + 1).rgb,
                                     drawn.w + environment_lobe_density(wi, r.wo, alpha, share));
-        vec2 u = lattice_point(shift, uEnvFrame * uEnvPairsAll + i);
-        wi = environment_lobe(u, r.wo, alpha, (i & 1) != 0);
+        bool cosine = (i & 1) != 0;
+        vec2 u = lattice_point(cosine ? shift.yx : shift, uEnvFrame * ((uEnvPairsAll + 1) / 2) + (i >> 1));
+        wi = environment_lobe(u, r.wo, alpha, cosine);
         vec3 wi_w = wi.x * r.frame.t + wi.y * r.frame.b + wi.z * r.frame.n;
         if (wi.z > 0.0)
             sum += environment_from(r, params, wi_w, environment_radiance(wi_w),
