@@ -59,7 +59,7 @@ int explainCommand(const std::vector<std::string>& list) {
         "the truth, and what OpenGL makes of it.");
     std::vector<std::string> inputs;
     std::string where, testFile;
-    bool json = false, shadows = true;
+    bool json = false, noShadows = false;
     double error = 0.001;
     arguments.app().add_option("scene", inputs, "glTF scene; - is standard input")->type_name("SCENE");
     arguments.app()
@@ -74,7 +74,7 @@ int explainCommand(const std::vector<std::string>& list) {
         .add_option("--error", error, "standard error wanted of the truth, as a share of it [0.001]")
         ->type_name("SHARE")
         ->check(CLI::Range(1e-5, 1.0));
-    arguments.app().add_flag("--shadows,!--no-shadows", shadows, "without: everything sees every light");
+    arguments.app().add_flag("--no-shadows", noShadows, "everything sees every light, as with --shadows none");
     arguments.app().add_flag("--json", json, "for programs");
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;
@@ -83,6 +83,7 @@ int explainCommand(const std::vector<std::string>& list) {
     if (files.size() != 1) throw UsageError(std::to_string(files.size()) + " scenes; expected one");
     const Settings settings = arguments.sources().resolve(files[0]);
     requireOneCamera(settings);
+    const bool shadows = !noShadows && settings.get("shadows") != "none";
     const RenderOptions options = renderOptionsOf(settings);
     const Place place = placeOf(where, options);
 

@@ -22,7 +22,7 @@ struct ReferenceArguments {
     std::string filter = "point";
     double error = 0.002, seconds = 0.0;
     long long mostRays = 1 << 22;
-    bool shadows = true, cache = true, json = false, quiet = false;
+    bool noShadows = false, cache = true, json = false, quiet = false;
 };
 
 void addOptions(CLI::App& app, ReferenceArguments& r) {
@@ -44,8 +44,8 @@ void addOptions(CLI::App& app, ReferenceArguments& r) {
            "mean over the pixel [point]")
         ->type_name("NAME")
         ->check(CLI::IsMember({"point", "box"}));
-    app.add_flag("--shadows,!--no-shadows", r.shadows,
-                 "without: everything sees every light, as a renderer without shadows has it");
+    app.add_flag("--no-shadows", r.noShadows,
+                 "everything sees every light, as --shadows none has it");
     app.add_flag("--cache,!--no-cache", r.cache,
                  "go on from an earlier truth of the same picture, and keep this one (default)");
     app.add_flag("--json", r.json, "what was reached, as JSON on standard output");
@@ -90,7 +90,8 @@ int referenceCommand(const std::vector<std::string>& list) {
     request.width = size.width;
     request.height = size.height;
     request.options.filter = r.filter == "box" ? reference::PixelFilter::box : reference::PixelFilter::point;
-    request.options.shadows = r.shadows;
+    const bool shadows = !r.noShadows && shot.settings->get("shadows") != "none";
+    request.options.shadows = shadows;
     request.relativeError = r.error;
     request.mostRays = r.mostRays;
     if (r.seconds > 0.0) request.seconds = r.seconds;
@@ -116,7 +117,7 @@ int referenceCommand(const std::vector<std::string>& list) {
     nlohmann::json record = recordOf(shot, *scene, camera, context);
     record["reference"] = {{"relative_error", truth.relativeError},
                            {"filter", r.filter},
-                           {"shadows", r.shadows},
+                           {"shadows", shadows},
                            {"seconds", seconds}};
     imageFiles.write(shot.output, truth.image,
                      {.metadata = metadataOf(record), .exrPrecision = ExrPrecision::single});

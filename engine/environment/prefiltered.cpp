@@ -14,6 +14,8 @@ constexpr int kTableWidths = 17;
 constexpr int kLeastLayer = 24;
 /// Larger layers are read in rings, smaller ones are sums over the whole sphere.
 constexpr int kLargestSummed = 100;
+/// Of layers that are blurred at all.
+constexpr int kMostBlurred = 512;
 /// Squares along a side of a layer times its lobe's spread: about a third of it is one square.
 constexpr double kSquaresPerSpread = 7.0;
 /// Of each layer's lobe over the last one's; below this spread, where little is seen of the difference, 1.4 times that.
@@ -185,9 +187,9 @@ Prefiltered prefiltered(const RadianceTree& tree, const Request& request) {
     if (area.terms > 0) layers = layersFor(request, rows, finest);
     for (const Layer& layer : layers) {
         const int size = static_cast<int>(std::min(kSquaresPerSpread / layer.spread, 1e6));
-        result.layers.push_back({0, 0, std::clamp(size, kLeastLayer, tree.size())});
+        const int most = layer.spread < finest ? tree.size() : std::min(tree.size(), kMostBlurred);
+        result.layers.push_back({0, 0, std::clamp(size, kLeastLayer, most)});
     }
-    // Of several fine layers of one size there is one at most.
     if (request.irradiance) result.irradiance.size = kIrradianceSize;
 
     int widest = std::max(3 * kAngles, result.irradiance.size + 2);

@@ -23,7 +23,7 @@ constexpr float kOfMean = 4e-4F, kOfWeights = 1e-3F;
 
 int sizeFor(const EnvironmentMap& map) {
     int size = kLeast;
-    while (size < kMost && size < 0.45 * map.width())
+    while (size < kMost && size < 0.9 * map.width())
         size *= 2;
     return size;
 }
