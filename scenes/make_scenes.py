@@ -5,7 +5,7 @@ usage: make_scenes.py [FOLDER]"""
 import pathlib
 import sys
 
-from making import extreme, fog, gallery, lights, models, vases
+from making import environment, extreme, fog, gallery, lights, models, vases
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -34,6 +34,7 @@ SCENES = {
     "fog/even": fog.even_fog,
     "fog/height": fog.height_fog,
     "fog/airlight": fog.airlight,
+    "environment/balls": environment.balls,
     "panes": fog.panes,
     "glass": fog.glass,
 }
@@ -41,10 +42,11 @@ SCENES = {
 
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
-    for part in ("extreme", "data", "lights", "fog"):
+    for part in ("extreme", "data", "lights", "fog", "environment"):
         (folder / part).mkdir(parents=True, exist_ok=True)
     for part in ("data", "lights"):
         models.merl_table(folder / part / "metallic_paint.binary", (32, 24), models.metallic_paint)
+    (folder / "environment" / "directions.png").write_bytes(environment.directions())
     for name, make in SCENES.items():
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme.extreme():

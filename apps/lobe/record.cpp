@@ -32,6 +32,8 @@ json recordOf(const Shot& shot, const Scene& scene, const Camera& camera, const 
     if (settings.contains("brdf_file"))
         for (json& file : settings["brdf_file"])
             file = std::filesystem::absolute(file.get<std::string>()).lexically_normal().string();
+    if (settings.contains("env"))
+        settings["env"] = std::filesystem::absolute(settings["env"].get<std::string>()).lexically_normal().string();
     json record = {{"schema", 1},
                    {"lobe", paths::kVersion},
                    {"scene", std::filesystem::absolute(shot.scene).lexically_normal().string()},

@@ -31,7 +31,7 @@ std::string Setting::flag() const {
 std::string Setting::valueName() const {
     switch (type) {
         case SettingType::text:
-            return "NAME";
+            return key == "env" ? "FILE" : "NAME";
         case SettingType::integer:
         case SettingType::real:
             return "N";
@@ -191,6 +191,27 @@ std::vector<Setting> makeTable() {
          {},
          3,
          64},
+
+        {"env", text, nullptr,
+         "picture of the environment that lights the scene, in place of its own: equirectangular, a cube unfolded "
+         "as a cross, or, as a folder or a name with *, six faces px nx py ny pz nz (docs/environment.md)",
+         "Scene"},
+        {"env_rotation",
+         real,
+         0.0,
+         "turns the environment about the vertical, counter-clockwise as seen from above",
+         "Scene",
+         {},
+         -36000.0,
+         36000.0,
+         "degrees"},
+        {"env_intensity", real, 1.0, "multiplies the environment's radiance", "Scene", {}, 0.0, 1e6},
+        {"env_background",
+         choice,
+         nullptr,
+         "the environment behind surfaces; default as the scene says, else show",
+         "Scene",
+         {"show", "blur", "hide"}},
 
         {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",
          "Quality", qualityPresetNames()},

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "model_files.hpp"
 #include "plan/summary.hpp"
+#include "shot_environment.hpp"
 
 namespace lobe::app {
 namespace {
@@ -79,8 +80,8 @@ std::string modelForAll(const Scene& scene, const Settings& settings) {
     return name;
 }
 
-bool needsLight(const Scene& scene) {
-    return scene.lights.empty() && !scene.ambientRadiance && !scene.environment;
+bool needsLight(const Scene& scene, const Settings& settings) {
+    return scene.lights.empty() && !scene.ambientRadiance && !hasEnvironment(scene, settings);
 }
 
 /// The key light belongs to the first frame's camera, so that it does not turn with a turntable.
@@ -121,7 +122,10 @@ json changesOf(const Scene& scene, const Settings& settings) {
     if (const std::string model = modelForAll(scene, settings); !model.empty()) changes["brdf"] = model;
     if (const json& values = settings.get("brdf_set"); !values.is_null()) changes["brdf_set"] = values;
     if (const json& bands = settings.get("bands"); bands != kRgb) changes["bands"] = bands;
-    if (needsLight(scene)) {
+    const json environment = environmentChanges(scene, settings);
+    for (const auto& [key, value] : environment.items())
+        changes[key] = value;
+    if (needsLight(scene, settings)) {
         const glm::dmat4 pose =
             keyLightCamera(scene, settings).worldFromCamera;  // the light follows its axes
         for (int axis = 0; axis < 3; ++axis)
@@ -140,7 +144,11 @@ std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& b
         changed = std::make_shared<Scene>(withParameters(changed ? *changed : *base, values));
     if (const int bands = settings.get("bands").get<int>(); bands != kRgb)
         changed = std::make_shared<Scene>(withBands(changed ? *changed : *base, bands));
-    if (needsLight(*base)) {
+    if (!environmentChanges(*base, settings).empty()) {
+        if (!changed) changed = std::make_shared<Scene>(*base);
+        applyEnvironment(*changed, settings);
+    }
+    if (needsLight(*base, settings)) {
         if (!changed) changed = std::make_shared<Scene>(*base);
         addDefaultLight(*changed, keyLightCamera(*base, settings));
     }

@@ -1,34 +1,20 @@
 #include "environment/environment_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <span>
 
-#include "image/tone.hpp"
+#include "base/content_hash.hpp"
+#include "scene/environment_picture.hpp"
 #include "math/sphere.hpp"
 
 namespace lobe {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-double component(const Bitmap& bitmap, size_t index) {
-    switch (bitmap.type) {
-        case ComponentType::u8:
-            return decodeSrgb(static_cast<float>(std::to_integer<int>(bitmap.data[index])) / 255.0F);
-        case ComponentType::u16: {
-            uint16_t value;
-            std::memcpy(&value, bitmap.data.data() + index * sizeof value, sizeof value);
-            return decodeSrgb(static_cast<float>(value) / 65535.0F);
-        }
-        default: {
-            float value;
-            std::memcpy(&value, bitmap.data.data() + index * sizeof value, sizeof value);
-            return value;
-        }
-    }
-}
 
 double brightness(const glm::dvec3& rgb) {
     return (rgb.r + rgb.g + rgb.b) / 3.0;
@@ -60,7 +46,7 @@ EnvironmentMap::EnvironmentMap(const Environment& environment, const Bitmap* bit
         glm::dvec3 rgb;
         bool bad = false;
         for (size_t c = 0; c < 3; ++c) {
-            const double value = component(*bitmap, i * channels + (channels >= 3 ? c : 0));
+            const double value = linearComponent(*bitmap, i * channels + (channels >= 3 ? c : 0));
             const bool usable = std::isfinite(value) && value >= 0.0;
             bad |= !usable;
             rgb[static_cast<int>(c)] = usable ? value : 0.0;
@@ -97,16 +83,30 @@ const glm::dvec3& EnvironmentMap::texel(int x, int y) const {
     return texels_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
 }
 
+EnvironmentMap EnvironmentMap::of(const Scene& scene) {
+    const int image = scene.environment->image;
+    return {*scene.environment, image < 0 ? nullptr : &scene.images[static_cast<size_t>(image)]};
+}
+
+EnvironmentMap EnvironmentMap::ofBackground(const Scene& scene) {
+    const int image = scene.environment->backgroundImage;
+    if (image < 0) return of(scene);
+    return {*scene.environment, &scene.images[static_cast<size_t>(image)]};
+}
+
 glm::dvec3 EnvironmentMap::radiance(const glm::dvec3& direction) const {
-    if (constant()) return scale_;
-    const glm::dvec3 d = glm::transpose(worldFromMap_) * direction;
+    return scale_ * relative(glm::transpose(worldFromMap_) * direction);
+}
+
+glm::dvec3 EnvironmentMap::relative(const glm::dvec3& d) const {
+    if (constant()) return glm::dvec3(1.0);
     const double polar = std::atan2(std::hypot(d.x, d.z), d.y);
     const double azimuth = std::atan2(d.x, -d.z) / (2.0 * kPi);
     const double x = (azimuth - std::floor(azimuth)) * width_ - 0.5, y = polar / kPi * height_ - 0.5;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const double fx = x - x0, fy = y - y0;
-    return scale_ * glm::mix(glm::mix(texel(x0, y0), texel(x0 + 1, y0), fx),
-                             glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), fy);
+    return glm::mix(glm::mix(texel(x0, y0), texel(x0 + 1, y0), fx),
+                    glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), fy);
 }
 
 glm::dvec3 EnvironmentMap::draw(double u, double v) const {
@@ -127,10 +127,22 @@ double EnvironmentMap::density(const glm::dvec3& direction) const {
     const glm::dvec3 d = glm::transpose(worldFromMap_) * direction;
     const double polar = std::atan2(std::hypot(d.x, d.z), d.y);
     const double azimuth = std::atan2(d.x, -d.z) / (2.0 * kPi);
-    const auto x =
-        static_cast<size_t>(std::clamp((azimuth - std::floor(azimuth)) * width_, 0.0, width_ - 1.0));
-    const auto y = static_cast<size_t>(std::clamp(polar / kPi * height_, 0.0, height_ - 1.0));
-    const double* row = &sums_[y * (static_cast<size_t>(width_) + 1)];
+    return densityAt(
+        static_cast<int>(std::clamp((azimuth - std::floor(azimuth)) * width_, 0.0, width_ - 1.0)),
+        static_cast<int>(std::clamp(polar / kPi * height_, 0.0, height_ - 1.0)));
+}
+
+std::string EnvironmentMap::contentHash() const {
+    ContentHash hash;
+    const std::array<int, 2> size{width(), height()};
+    hash.add(std::as_bytes(std::span(size)));
+    hash.add(std::as_bytes(std::span(texels_)));
+    return hash.hex();
+}
+
+double EnvironmentMap::densityAt(int x, int y) const {
+    if (constant() || rowSums_.back() == 0.0) return 1.0 / (4.0 * kPi);
+    const double* row = &sums_[static_cast<size_t>(y) * (static_cast<size_t>(width_) + 1)];
     // Texels of a row have one solid angle: (top - bottom) 2 pi / width.
     return (row[x + 1] - row[x]) / rowSums_.back() * width_ / (2.0 * kPi);
 }

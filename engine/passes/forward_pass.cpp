@@ -52,7 +52,7 @@ void ForwardPass::prepare() {
 }
 
 void ForwardPass::draw(Group& group, const View& view, SurfaceOrder order, bool rest) {
-    resources().surfaces.draw(group.part, view, order, [&](const gl::Program& program) {
+    resources().surfaces.draw(group.part, view, order, [&](const gl::Program& program, const Variant& variant) {
         const Scene& scene = resources().scene;
         program.set("uForward", glm::vec3(view.forward));
         program.set("uRayDirection", glm::vec3(view.rayDirection));
@@ -61,7 +61,8 @@ void ForwardPass::draw(Group& group, const View& view, SurfaceOrder order, bool 
         program.set("uAmbientRadiance", glm::vec3(scene.ambientRadiance.value_or(glm::dvec3(0.0))));
         int unit = resources().rays.bind(program, kFirstLightUnit, view);
         unit = resources().lights.bind(program, unit);
-        resources().bodies.bind(program, unit, plan().areaPointsForward);
+        unit = resources().bodies.bind(program, unit, plan().areaPointsForward);
+        resources().environment.bind(program, unit, variant.brdf, plan().environmentSamplesForward);
         resources().shadowMaps.bind(program);
         if (scene.fog) {
             program.set("uRayOrigin", glm::vec3(view.rayOrigin));

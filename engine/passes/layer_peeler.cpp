@@ -51,7 +51,7 @@ bool LayerPeeler::next(const View& view) {
     glDisable(GL_BLEND);
     glBeginQuery(GL_SAMPLES_PASSED, query_.id());
     resources_.surfaces.draw(planned_, view, SurfaceOrder::byScene,
-                             [this](const gl::Program& program) { bindLayer(program); });
+                             [this](const gl::Program& program, const Variant&) { bindLayer(program); });
     glEndQuery(GL_SAMPLES_PASSED);
     GLuint passed = 0;
     glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &passed);

@@ -27,7 +27,8 @@ void LightPass::run(const View& view) {
         int unit = resources().inputs.bind(shader, targets(), view, brdf);
         unit = resources().rays.bind(shader, unit, view);
         unit = resources().lights.bind(shader, unit);
-        resources().bodies.bind(shader, unit, plan().areaPoints);
+        unit = resources().bodies.bind(shader, unit, plan().areaPoints);
+        resources().environment.bind(shader, unit, variant.brdf, plan().environmentSamples);
         resources().shadowMaps.bind(shader);
         resources().inputs.setMask(&brdf);
         draw(variant, shader);
@@ -69,6 +70,16 @@ void BodyLightPass::draw(const Variant& variant, const gl::Program& shader) cons
             BodyLights::setPoints(shader, from, std::min(points, from + pointsEach), points);
             resources().inputs.drawScreen(shader);
         }
+    }
+}
+
+void EnvironmentPass::draw(const Variant& variant, const gl::Program& shader) const {
+    if (!variant.defines.contains("ENVIRONMENT_SAMPLED")) return resources().inputs.drawScreen(shader);
+    const int pairs = EnvironmentLight::pairsOf(plan().environmentSamples);
+    const int each = std::max(1, (variant.defines.contains("ENVIRONMENT_SHADOWS") ? kRaysPerDraw : kPointsPerDraw) / 2);
+    for (int first = 0; first < pairs; first += each) {
+        EnvironmentLight::setPairs(shader, first, std::min(pairs, first + each));
+        resources().inputs.drawScreen(shader);
     }
 }
 

@@ -4,7 +4,7 @@
 
 namespace lobe {
 
-/// Adds the light of one type to all surfaces: one program a model in use, masked by stencil.
+/// Adds the light of one type, or of the environment, to all surfaces: one program a model in use, masked by stencil.
 class LightPass : public Pass {
 public:
     LightPass(const PlannedPass& planned, FrameResources& resources, LightType type)
@@ -32,6 +32,16 @@ class PunctualLightPass : public LightPass {
 /// long.
 class BodyLightPass : public LightPass {
     using LightPass::LightPass;
+    void draw(const Variant& variant, const gl::Program& shader) const override;
+};
+
+/// The environment. Draws are split by directions, for the same reason.
+class EnvironmentPass : public LightPass {
+public:
+    EnvironmentPass(const PlannedPass& planned, FrameResources& resources)
+        : LightPass(planned, resources, LightType::directional) {}
+
+protected:
     void draw(const Variant& variant, const gl::Program& shader) const override;
 };
 

@@ -21,6 +21,8 @@ std::unique_ptr<Pass> makePass(const PlannedPass& planned, FrameResources& resou
     for (LightType type : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
         if (planned.name == std::string("light.") + nameOf(type))
             return std::make_unique<BodyLightPass>(planned, resources, type);
+    if (planned.name == "light.environment") return std::make_unique<EnvironmentPass>(planned, resources);
+    if (planned.name == "background") return std::make_unique<BackgroundPass>(planned, resources);
     if (planned.name == "fog") return std::make_unique<FogPass>(planned, resources);
     if (planned.name == "airlight") return std::make_unique<AirlightPass>(planned, resources);
     if (planned.name == "dim") return std::make_unique<DimPass>(planned, resources);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "passes/body_lights.hpp"
+#include "passes/environment_light.hpp"
 #include "passes/light_buffers.hpp"
 #include "passes/program_cache.hpp"
 #include "passes/ray_scene.hpp"
@@ -25,6 +26,7 @@ struct FrameResources {
     SurfaceDraws& surfaces;
     LightBuffers& lights;
     BodyLights& bodies;
+    EnvironmentLight& environment;  ///< empty where the plan has none
     ScreenInputs& inputs;
     RayScene& rays;  ///< empty where the plan has none
     ShadowMaps& shadowMaps;

@@ -60,11 +60,12 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               bodies(*scene, plan),
+              environment(*scene, plan),
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights, bodies),
               resources{*scene, plan,   programs, targets,    surfaces, lights,
-                        bodies, inputs, rays,     shadowMaps, {}} {
+                        bodies, environment, inputs, rays, shadowMaps, {}} {
             for (const PlannedPass& planned : plan.passes) {
                 if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);
@@ -86,6 +87,7 @@ struct Renderer::State {
         SurfaceDraws surfaces;
         LightBuffers lights;
         BodyLights bodies;
+        EnvironmentLight environment;
         ScreenInputs inputs;
         RayScene rays;
         ShadowMaps shadowMaps;
@@ -195,6 +197,7 @@ Picture Renderer::render(const Camera& camera) {
             makeView(camera, options.width, options.height, jitter(sample, current.plan.samples)));
         current.lights.update(view);
         current.bodies.update(view, sample);
+        current.environment.update(sample);
         mark("lights");
         state_->clearPictures();
         for (const auto& pass : current.frame) {

@@ -16,6 +16,23 @@ void CoveragePass::run(const View&) {
     resources().inputs.clearMask();
 }
 
+void BackgroundPass::prepare() {
+    program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
+}
+
+void BackgroundPass::run(const View& view) {
+    glBindFramebuffer(GL_FRAMEBUFFER, targets().lighting(planned_.writes.front()));
+    program_->use();
+    const int unit = resources().inputs.bindView(*program_, targets(), view);
+    resources().environment.bindBackground(*program_, unit);
+    if (planned_.reads.empty())
+        resources().inputs.clearMask();  // no surface has been drawn yet: all is background
+    else
+        resources().inputs.setBackgroundMask();
+    resources().inputs.drawScreen(*program_);
+    resources().inputs.clearMask();
+}
+
 void DimPass::prepare() {
     program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
 }

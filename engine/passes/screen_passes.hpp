@@ -16,6 +16,17 @@ private:
     const gl::Program* program_ = nullptr;
 };
 
+/// The environment where no surface is.
+class BackgroundPass : public Pass {
+public:
+    using Pass::Pass;
+    void prepare() override;
+    void run(const View& view) override;
+
+private:
+    const gl::Program* program_ = nullptr;
+};
+
 /// Dims each contribution by what the blended surfaces in front of it let through.
 class DimPass : public Pass {
 public:

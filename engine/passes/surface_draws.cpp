@@ -162,7 +162,7 @@ void SurfaceDraws::useMaterial(const gl::Program& shader, const Variant& variant
 }
 
 void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder order,
-                        const std::function<void(const gl::Program&)>& perProgram) {
+                        const std::function<void(const gl::Program&, const Variant&)>& perProgram) {
     const std::vector<glm::dvec4> planes = frustumPlanes(view);
     std::vector<Item> items;
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
@@ -199,7 +199,7 @@ void SurfaceDraws::draw(const PlannedPass& pass, const View& view, SurfaceOrder 
             shader->use();
             shader->set("uClipFromRelative", glm::mat4(view.clipFromRelative));
             tables_.bind(*shader);
-            perProgram(*shader);
+            perProgram(*shader, *variant);
             if (plan_.masked)
                 if (const PlannedBrdf* brdf = plan_.brdf(variant->brdf))
                     glStencilFunc(GL_ALWAYS, brdf->stencil, 0xff);

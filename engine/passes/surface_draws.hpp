@@ -31,7 +31,7 @@ public:
     /// `perProgram` sets a pass's own uniforms after a program is put in use. Stencil reference: the model's
     /// mask value.
     void draw(const PlannedPass& pass, const View& view, SurfaceOrder order,
-              const std::function<void(const gl::Program&)>& perProgram);
+              const std::function<void(const gl::Program&, const Variant&)>& perProgram);
 
     /// Compiles and uploads for drawCasters().
     void prepareCasters(const PlannedPass& pass);

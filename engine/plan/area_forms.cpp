@@ -1,6 +1,8 @@
 #include "plan/area_forms.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 #include "scene/brdf_tables.hpp"
 
@@ -28,8 +30,59 @@ bool varies(const Brdf& brdf, size_t index, const std::vector<Use>& uses) {
     });
 }
 
-AreaForm formOf(const Brdf& brdf, const std::vector<Use>& uses) {
-    AreaForm form{{&brdf, uses.front().material->values}, "", 0, 0};
+double component(const Bitmap& bitmap, size_t index) {
+    switch (bitmap.type) {
+        case ComponentType::u8:
+            return std::to_integer<int>(bitmap.data[index]) / 255.0;
+        case ComponentType::u16: {
+            uint16_t value;
+            std::memcpy(&value, bitmap.data.data() + index * sizeof value, sizeof value);
+            return value / 65535.0;
+        }
+        default: {
+            float value;
+            std::memcpy(&value, bitmap.data.data() + index * sizeof value, sizeof value);
+            return value;
+        }
+    }
+}
+
+/// Least and most of one channel of a texture; filters stay between them.
+std::pair<double, double> rangeOf(const Scene& scene, const TextureSlot& slot, int channel) {
+    const int image = slot ? scene.textures[static_cast<size_t>(slot.texture)].image : -1;
+    if (image < 0) return {1.0, 1.0};
+    const Bitmap& bitmap = scene.images[static_cast<size_t>(image)];
+    if (bitmap.channels == 0 || bitmap.data.empty()) return {1.0, 1.0};
+    const auto channels = static_cast<size_t>(bitmap.channels);
+    const size_t stored = channels <= 2 ? 0 : std::min(static_cast<size_t>(channel), channels - 1);
+    std::pair<double, double> range{HUGE_VAL, -HUGE_VAL};
+    for (size_t i = stored; i < bitmap.data.size() / bitmap.bytesPerComponent(); i += channels) {
+        const double value = component(bitmap, i);
+        range = {std::min(range.first, value), std::max(range.second, value)};
+    }
+    return range;
+}
+
+std::pair<double, double> widthsOf(const Scene& scene, const Brdf& brdf, const std::vector<Use>& uses) {
+    const int parameter = brdf.area->width.empty() ? -1 : brdf.parameterIndex(brdf.area->width);
+    if (parameter < 0) return {0.0, 0.0};
+    const auto index = static_cast<size_t>(parameter);
+    const auto& [least, most] = brdf.area->widths;
+    std::pair<double, double> range{HUGE_VAL, -HUGE_VAL};
+    for (const Use& use : uses) {
+        const Material& material = *use.material;
+        const double value = material.values[static_cast<size_t>(brdf.valueOffset(parameter))];
+        auto [low, high] = index < material.textures.size()
+                               ? rangeOf(scene, material.textures[index], material.textureChannels[index])
+                               : std::pair(1.0, 1.0);
+        range.first = std::min(range.first, std::clamp(low * value, least, most));
+        range.second = std::max(range.second, std::clamp(high * value, least, most));
+    }
+    return range;
+}
+
+AreaForm formOf(const Scene& scene, const Brdf& brdf, const std::vector<Use>& uses) {
+    AreaForm form{{&brdf, uses.front().material->values}, "", 0, {}, 0};
     if (!brdf.area) {
         form.refusal = "no fit serves its lobe";
         return form;
@@ -47,6 +100,7 @@ AreaForm formOf(const Brdf& brdf, const std::vector<Use>& uses) {
         else
             form.refusal = "its " + name + " varies";
     }
+    form.widths = widthsOf(scene, brdf, uses);
     form.terms = area.terms == 0 ? 0 : form.request.colorsVary ? area.terms : 1;
     return form;
 }
@@ -63,7 +117,7 @@ std::map<std::string, AreaForm> areaForms(const Scene& scene) {
     std::map<std::string, AreaForm> forms;
     auto row = static_cast<int>(tableRows(scene.materials));
     for (const auto& [model, of] : uses) {
-        AreaForm form = formOf(requireBrdf(model), of);
+        AreaForm form = formOf(scene, requireBrdf(model), of);
         form.firstRow = row;
         if (form.refusal.empty()) row += fit::tableTexels(form.request);
         forms.emplace(model, std::move(form));

@@ -13,6 +13,8 @@ struct AreaForm {
     fit::TableRequest request = {};  ///< what the materials have in common, and what varies among them
     std::string refusal;        ///< why there is none: "its lobe has two widths"; else empty
     int terms = 0;              ///< fits of each node: 0 for Lambert's part alone
+    /// Of AreaModel::width, what the materials use, textures included; without a width both 0.
+    std::pair<double, double> widths{0.0, 0.0};
     int firstRow = 0;           ///< in the buffer of tables, after those of the models
 };
 

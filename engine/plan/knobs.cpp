@@ -16,6 +16,8 @@ constexpr std::pair<const char*, int> kSamples[] = {{"none", 1}, {"ssaa4", 4}, {
 constexpr std::array kShadows{"none", "hard", "soft"};
 constexpr std::array kShadowMethods{"auto", "maps", "rays"};
 constexpr std::array kAreaLights{"analytic", "sampled"};
+constexpr std::array kEnvironmentLightings{"prefiltered", "sampled"};
+constexpr std::array kEnvironmentDiffuses{"sh2", "sh4", "map"};
 constexpr std::array kTransparencies{"sorted", "peeled"};
 
 /// The enumerator of an allowed value, named in their order.
@@ -50,9 +52,10 @@ std::string withoutGbuffer(const SceneSummary& scene, const Quality& quality) {
 std::string withoutNormal(const SceneSummary& scene, const Quality& quality) {
     if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
     const bool punctual = scene.directionalLights + scene.pointLights + scene.spotLights > 0;
-    if (!punctual && scene.bodyLights.empty()) return "no light reads the normal";
+    const bool extended = !scene.bodyLights.empty() || scene.environment;
+    if (!punctual && !extended) return "no light reads the normal";
     const bool shows = std::any_of(scene.brdfs.begin(), scene.brdfs.end(), [&](const BrdfFacts& facts) {
-        return scattersLight(facts.name) || (!scene.bodyLights.empty() && facts.name != kUnlit);
+        return scattersLight(facts.name) || (extended && facts.name != kUnlit);
     });
     return shows ? "" : "no opaque surface shows punctual light";
 }
@@ -129,6 +132,34 @@ std::string withoutLightSamples(const SceneSummary& scene, const Quality& qualit
 std::string withoutAirlight(const SceneSummary& scene, const Quality&) {
     if (!scene.fogScatters) return "no fog that scatters light in the scene";
     return scene.pointLights + scene.spotLights > 0 ? "" : "no point or spot light in the fog";
+}
+
+std::string withoutEnvironment(const SceneSummary& scene, const Quality&) {
+    if (!scene.environment) return "no environment in the scene";
+    const auto scatters = [](const SurfaceFeatures& surface) { return scattersLight(surface.brdf); };
+    return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), scatters)
+               ? ""
+               : "no surface scatters light of the environment";
+}
+
+/// Why nothing is read from a map of irradiance.
+std::string withoutEnvironmentDiffuse(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutEnvironment(scene, quality); !reason.empty()) return reason;
+    if (quality.envLighting == EnvironmentLighting::sampled) return "the environment is sampled";
+    const bool any = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& surface) {
+        return scattersLight(surface.brdf) && hasClosedForm(scene, surface.brdf);
+    });
+    return any ? "" : "no model of the scene has a part that is split off";
+}
+
+/// Why no direction is ever drawn.
+std::string withoutEnvironmentSamples(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutEnvironment(scene, quality); !reason.empty()) return reason;
+    const bool split = std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& surface) {
+        return !scattersLight(surface.brdf) || hasClosedForm(scene, surface.brdf);
+    });
+    return split && quality.envLighting == EnvironmentLighting::prefiltered ? "the environment is prefiltered"
+                                                                            : "";
 }
 
 std::string withoutBlended(const SceneSummary& scene, const Quality&) {
@@ -300,6 +331,40 @@ const std::vector<Knob>& knobTable() {
          .get = [](const Quality& q) { return std::to_string(q.airlightNodes); },
          .set = [](Quality& q, const std::string& value) { q.airlightNodes = std::stoi(value); },
          .withoutEffect = withoutAirlight},
+        {.name = "env_lighting",
+         .title = "Environment",
+         .help = "its map integrated beforehand where a model's lobe can be split from it, or directions to it",
+         .values = {"prefiltered", "sampled"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return kEnvironmentLightings[static_cast<size_t>(q.envLighting)];
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.envLighting = chosen<EnvironmentLighting>(kEnvironmentLightings, value);
+             },
+         .withoutEffect = withoutEnvironment},
+        {.name = "env_diffuse",
+         .title = "Environment, diffuse",
+         .help = "irradiance by spherical harmonics of 9 or 25 coefficients, or from a small map",
+         .values = {"sh2", "sh4", "map"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return kEnvironmentDiffuses[static_cast<size_t>(q.envDiffuse)];
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.envDiffuse = chosen<EnvironmentDiffuse>(kEnvironmentDiffuses, value);
+             },
+         .withoutEffect = withoutEnvironmentDiffuse},
+        {.name = "env_samples",
+         .title = "Environment samples",
+         .help = "directions to the environment where it is sampled, half by its brightness, half by the lobe",
+         .values = {"16", "64", "256"},
+         .range = {{2, 4096}},
+         .get = [](const Quality& q) { return std::to_string(q.envSamples); },
+         .set = [](Quality& q, const std::string& value) { q.envSamples = std::stoi(value); },
+         .withoutEffect = withoutEnvironmentSamples},
         {.name = "transparency",
          .title = "Transparency",
          .help = "whole objects from back to front, or peeled layer by layer",

@@ -91,6 +91,7 @@ Scene withoutShadows(const Scene& scene) {
     Scene result = scene;
     for (Light& light : result.lights)
         light.castsShadow = false;
+    if (result.environment) result.environment->castsShadow = false;
     return result;
 }
 

@@ -44,7 +44,8 @@ FramePlan Planner::plan() {
     plan_.reversedDepth = capabilities_.clipControl;
     deferred_ = plan_.quality.shading == Shading::deferred;
     anyLight_ =
-        scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0 || !scene_.bodyLights.empty();
+        scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0 || !scene_.bodyLights.empty() ||
+        scene_.environment;
     unlit_ = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(),
                          [](const BrdfFacts& f) { return f.name == kUnlit; });
     hasDeferredSurface_ = deferred_ && !scene_.brdfs.empty();
@@ -72,7 +73,8 @@ PlannedShadow FramePlan::shadowOf(LightType type) const {
 }
 
 bool FramePlan::anyShadow() const {
-    return std::any_of(shadows.begin(), shadows.end(),
+    return environmentShadow != PlannedShadow::none ||
+           std::any_of(shadows.begin(), shadows.end(),
                        [](const auto& entry) { return entry.second != PlannedShadow::none; });
 }
 

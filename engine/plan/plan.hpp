@@ -75,6 +75,18 @@ struct PlannedArea {
     AreaForm form = {};  ///< the table of fits, where it is analytic
 };
 
+/// How what the surfaces of one model show of the environment is found.
+enum class EnvironmentMethod : uint8_t {
+    prefiltered,  ///< from the map integrated over the model's lobe
+    sampled,      ///< by directions
+    mirrored      ///< where the mirrored ray points
+};
+struct PlannedEnvironment {
+    EnvironmentMethod method = EnvironmentMethod::sampled;
+    std::string reason;
+    AreaForm form = {};  ///< what the prefiltered map is made for
+};
+
 struct FramePlan {
     Quality quality;
     int samples = 1;
@@ -90,6 +102,12 @@ struct FramePlan {
     std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
     int areaPoints = 0;            ///< on each light with a body, in each frame; 0: none are needed
     int areaPointsForward = 0;     ///< the same, for surfaces of the forward pass
+    std::map<std::string, PlannedEnvironment>
+        environmentMethods;              ///< by model, where the scene has an environment
+    int environmentSamples = 0;          ///< directions to it in each frame; 0: none are needed
+    int environmentSamplesForward = 0;   ///< the same, for surfaces of the forward pass
+    PlannedShadow environmentShadow = PlannedShadow::none;
+    bool environmentMap = false;         ///< its picture itself is looked up, not only what is made of it
     bool rays = false;             ///< the scene's hierarchy of boxes is made for the rays of some program
     int airlightNodes = 0;         ///< of each lamp's airlight; 0: there is none
     int mostLayers = 0;            ///< of blended surfaces that are peeled; 0: they are sorted by object
@@ -123,6 +141,9 @@ inline constexpr int kRaysPerDraw = 16;
 /// Of draws that cannot be split.
 inline constexpr int kRaysPerForwardDraw = 64;
 inline constexpr int kPointsPerDraw = 32768;
+
+/// Directions to the environment from which pixels take theirs.
+inline constexpr int kEnvironmentDirections = 16384;
 
 /// "directional", "rect", ...
 const char* nameOf(LightType type);

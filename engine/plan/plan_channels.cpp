@@ -76,12 +76,12 @@ void Planner::planNormal() {
     for (const BrdfFacts& facts : scene_.brdfs) {
         sharpness = std::max(sharpness, facts.sharpness);
         read |= (punctual && scattersLight(facts.name)) ||
-                (!scene_.bodyLights.empty() && showsBodies(facts.name));
+                (!scene_.bodyLights.empty() && showsBodies(facts.name)) || showsEnvironment(facts.name);
     }
     if (!read && !wants(Aov::normal)) {
         leaveOut("channel", "normal",
-                 !anyLight_                  ? "no light reads it"
-                 : scene_.bodyLights.empty() ? "no opaque surface shows punctual light"
+                 !anyLight_ ? "no light reads it"
+                 : scene_.bodyLights.empty() && !scene_.environment ? "no opaque surface shows punctual light"
                                              : "no opaque surface shows these lights");
         return;
     }
@@ -245,6 +245,7 @@ void Planner::planRadiance() {
         plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot"};
         for (const auto& [type, count] : scene_.bodyLights)
             plan_.contributionTargets.emplace_back(nameOf(type));
+        if (scene_.environment) plan_.contributionTargets.emplace_back("environment");
         if (scene_.fog) plan_.contributionTargets.emplace_back("fog");
         plan_.contributionTargets.emplace_back("transparent");
         for (const std::string& name : plan_.contributionTargets)

@@ -21,10 +21,6 @@ void Planner::requireForwardLoop(const char* type, int global) const {
                          " without range over blended surfaces; expected at most " + std::to_string(kMost));
 }
 
-void Planner::planUndrawn() {
-    if (scene_.environment) leaveOut("light", "environment", "not drawn yet");
-}
-
 /// With f_r cos(theta) <= P, a light of intensity I adds at most I P / d^2 at distance d. Each may take its
 /// share w / W of the threshold T, w = I^(3/5): it is left out from d = sqrt(I P W / (w T)) on, and what all
 /// lights take together stays below T.
@@ -47,7 +43,7 @@ void Planner::planReach() {
 }
 
 void Planner::planLights() {
-    planUndrawn();
+    planEnvironment();
     planReach();
     const bool reach = plan_.lightReach > 0.0;
     const int from = plan_.quality.clusterFrom;

@@ -86,6 +86,8 @@ void Planner::planPasses() {
     planLightPass(LightType::point, scene_.pointLights);
     planLightPass(LightType::spot, scene_.spotLights);
     planBodyPasses();
+    planEnvironmentPass();
+    planBackground();
     planFog();
     planAirlight();
     planForward();

@@ -126,6 +126,7 @@ void Planner::planShadows() {
     for (const auto& [type, lights] : types)
         if (lights > 0) plan_.shadows[type] = shadowMethod(type, lights, scene_.castingLights(type));
     planBodyShadows();
+    planEnvironmentShadow();
     noteRays();
 }
 

@@ -29,6 +29,7 @@ void Planner::forwardDefines(Defines& defines, const SurfaceFeatures& features) 
         }
     }
     defines.merge(forwardBodyDefines(features.brdf));
+    defines.merge(environmentDefines(features.brdf));
     if (scene_.fog) {
         defines["FOG"] = "1";
         fogDefines(defines);

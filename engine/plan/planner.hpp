@@ -79,8 +79,6 @@ private:
     void planShadowMaps();
     void planShadowMapSize();
     void shadowMapDefines(Defines& defines, LightType type) const;
-    /// What the scene has and the reference alone computes so far.
-    void planUndrawn();
     void planReach();
     /// Lights without range reach every pixel and stay outside the clusters.
     void planLights();
@@ -96,6 +94,14 @@ private:
     Defines bodyDefines(const std::string& model, LightType type) const;
     Defines forwardBodyDefines(const std::string& model) const;
     void planBodyPasses();
+    /// Whether the environment shows on surfaces of this model.
+    bool showsEnvironment(const std::string& model) const;
+    PlannedEnvironment environmentMethod(const std::string& model) const;
+    void planEnvironmentShadow();
+    void planEnvironment();
+    Defines environmentDefines(const std::string& model) const;
+    void planEnvironmentPass();
+    void planBackground();
     void planBodyPass(LightType type);
     void shadowDefines(Defines& defines, LightType type) const;
     Defines surfaceDefines(const SurfaceFeatures& features) const;

@@ -11,7 +11,8 @@ const std::vector<std::string>& qualityPresetNames() {
 }
 
 Quality qualityPreset(const std::string& name) {
-    if (name == "draft") return {.samples = 1, .gbufferBits = 8, .textureBits = 8, .shadows = Shadows::none};
+    if (name == "draft") return {.samples = 1, .gbufferBits = 8, .textureBits = 8, .shadows = Shadows::none,
+                .envDiffuse = EnvironmentDiffuse::sh2, .envSamples = 16};
     if (name == "balanced") return {};
     if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16};
     if (name == "converged")
@@ -22,6 +23,8 @@ Quality qualityPreset(const std::string& name) {
                 .areaLights = AreaLights::sampled,
                 .lightSamples = 64,
                 .airlightNodes = 32,
+                .envLighting = EnvironmentLighting::sampled,
+                .envSamples = 64,
                 .transparency = Transparency::peeled};
     throw UsageError("quality '" + name + "'; expected draft, balanced, high or converged" +
                      didYouMean(name, qualityPresetNames()));

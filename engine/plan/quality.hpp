@@ -34,6 +34,17 @@ enum class AreaLights : uint8_t {
     sampled    ///< points on the light: converges to the truth
 };
 
+enum class EnvironmentLighting : uint8_t {
+    prefiltered,  ///< integrals over the map, made beforehand, where a model's lobe can be split from it
+    sampled       ///< directions: converges to the truth
+};
+
+enum class EnvironmentDiffuse : uint8_t {
+    sh2,  ///< nine coefficients of spherical harmonics
+    sh4,  ///< twenty-five
+    map   ///< integrated for every direction of a small map
+};
+
 enum class Transparency : uint8_t {
     sorted,  ///< whole objects, back to front
     peeled   ///< layer by layer, exact
@@ -72,6 +83,10 @@ struct Quality {
     int lightThreshold = 0;
     int airlightNodes =
         8;  ///< of the quadrature along the view ray, for each light that fog scatters; 0: none
+    EnvironmentLighting envLighting = EnvironmentLighting::prefiltered;
+    EnvironmentDiffuse envDiffuse = EnvironmentDiffuse::map;
+    /// Directions to the environment, for each sample of a pixel, where it is sampled.
+    int envSamples = 32;
     Transparency transparency = Transparency::sorted;
 
     bool operator==(const Quality&) const = default;

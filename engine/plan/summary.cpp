@@ -134,6 +134,18 @@ void countLights(const Scene& scene, SceneSummary& summary) {
         }
     }
     summary.environment = scene.environment.has_value();
+    if (scene.environment) {
+        const Environment& environment = *scene.environment;
+        summary.environmentPicture = environment.image >= 0;
+        summary.environmentSeen = environment.background;
+        summary.environmentBlurred = environment.background && environment.backgroundImage >= 0;
+        summary.environmentCastsShadow = environment.castsShadow;
+        if (environment.image >= 0) {
+            const Bitmap& picture = scene.images[static_cast<size_t>(environment.image)];
+            summary.environmentWidth = picture.width;
+            summary.environmentHeight = picture.height;
+        }
+    }
     summary.fog = scene.fog.has_value();
     summary.fogFallsOff = scene.fog && scene.fog->heightFalloff > 0.0;
     summary.fogGrey = scene.fog && scene.fog->extinction == glm::dvec3(scene.fog->extinction.x) &&
@@ -284,7 +296,7 @@ SceneSummary summarise(const Scene& scene) {
         use.material = &material;
         use.vertexColors |= features.vertexColors;
     }
-    if (!summary.bodyLights.empty()) summary.areaForms = areaForms(scene);
+    if (!summary.bodyLights.empty() || summary.environment) summary.areaForms = areaForms(scene);
     for (const auto& [name, uses] : opaqueUses) {
         std::vector<Use> list;
         for (const auto& [index, use] : uses)

@@ -71,7 +71,8 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
         }
     }
     if (body == nullptr && environment_ == nullptr) return;
-    const double transmittance = body != nullptr && !body->castsShadow ? 1.0 : visible(direction, nearest);
+    const bool blocked = body != nullptr ? body->castsShadow : scene_.environment->castsShadow;
+    const double transmittance = blocked ? visible(direction, nearest) : 1.0;
     if (body != nullptr)
         exact[static_cast<size_t>(sourceOf(body->type))] +=
             reflectance * transmittance * bodyRadiance(*body, point.position);
@@ -85,7 +86,6 @@ std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& 
                                                             Contributions& exact,
                                                             const LightEffort& effort) const {
     std::vector<std::unique_ptr<LightIntegral>> integrals;
-    const Scatterer scatterer{point, visible, random};
     addMirrored(point, visible, exact);
     if (!point.brdf->traits.scattersLight) return integrals;
     static const Visibility kUnblocked = [](const glm::dvec3&, double) { return 1.0; };
@@ -96,7 +96,10 @@ std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& 
         else if (auto integral = bodyIntegral(lit, light, method_, effort))
             integrals.push_back(std::move(integral));
     }
-    if (environment_ != nullptr) integrals.push_back(environmentIntegral(scatterer, *environment_, effort));
+    if (environment_ != nullptr) {
+        const Scatterer lit{point, scene_.environment->castsShadow ? visible : kUnblocked, random};
+        integrals.push_back(environmentIntegral(lit, *environment_, effort));
+    }
     return integrals;
 }
 

@@ -35,9 +35,12 @@ struct Layer {
 
 std::optional<EnvironmentMap> environmentOf(const Scene& scene) {
     if (!scene.environment) return std::nullopt;
-    const int image = scene.environment->image;
-    return EnvironmentMap(*scene.environment,
-                          image < 0 ? nullptr : &scene.images[static_cast<size_t>(image)]);
+    return EnvironmentMap::of(scene);
+}
+
+std::optional<EnvironmentMap> backgroundOf(const Scene& scene) {
+    if (!scene.environment || !scene.environment->background) return std::nullopt;
+    return EnvironmentMap::ofBackground(scene);
 }
 
 }  // namespace
@@ -66,6 +69,7 @@ PixelIntegrator::PixelIntegrator(std::shared_ptr<const Scene> scene, const Camer
       tracer_(kept_, view_.eye),
       differentials_(pixelDifferentials(view_)),
       environment_(environmentOf(scene_)),
+      background_(backgroundOf(scene_)),
       lights_(scene_, environment_ ? &*environment_ : nullptr, options.method) {}
 
 PixelTruth PixelIntegrator::at(int x, int y, const Effort& effort, uint64_t seed) const {
@@ -131,9 +135,11 @@ PixelTruth PixelIntegrator::along(const Ray& ray, const Effort& effort, Pcg32& r
     truth.coverage = 1.0 - uncovered;
     if (remaining != glm::dvec3(0.0)) {
         const glm::dvec3 clear = addFog(remaining, kInfinity);
-        if (environment_ && scene_.environment->background)
+        if (background_) {
             truth.radiance[static_cast<size_t>(Source::environment)] +=
-                remaining * clear * environment_->radiance(direction);
+                remaining * clear * background_->radiance(direction);
+            truth.coverage = 1.0;
+        }
     }
 
     // The worst integral next, until the whole is good.

@@ -66,7 +66,7 @@ private:
     TruthOptions options_;
     Tracer tracer_;
     RayDifferentials differentials_;
-    std::optional<EnvironmentMap> environment_;
+    std::optional<EnvironmentMap> environment_, background_;  ///< what lights, and what is seen
     DirectLight lights_;
 };
 

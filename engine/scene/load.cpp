@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/worker.hpp"
+#include "scene/environment_picture.hpp"
 #include "scene/load_protocol.hpp"
 
 namespace lobe {
@@ -139,6 +140,9 @@ Scene SceneLoader::load(const fs::path& file, const LoadOptions& options) {
     LoadReply reply = workers_->import(file, options);
     Scene scene = std::move(reply.scene);
     scene.images = workers_->decode(reply, scene.file, scene.warnings);
+    if (scene.environment && scene.environment->image >= 0)
+        if (auto warning = badTexelWarning(scene.images[static_cast<size_t>(scene.environment->image)]))
+            scene.warnings.push_back(std::move(*warning));
     return scene;
 }
 

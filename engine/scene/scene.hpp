@@ -141,6 +141,9 @@ struct Environment {
     double intensity = 1.0;    ///< multiplies the image's radiance
     glm::dmat3 worldFromMap{1.0};
     bool background = true;  ///< seen where no surface is
+    /// Index of another such picture that is seen in place of `image`, as the same one blurred; -1: none.
+    int backgroundImage = -1;
+    bool castsShadow = true;  ///< surfaces keep its light from one another
 };
 
 /// Beer-Lambert transmittance of the way from surface to eye (LOBE_fog): sigma(y) = extinction

@@ -194,7 +194,7 @@ template<typename Archive>
 void serialize(Archive& archive, Environment& environment) {
     archive(environment.image, environment.radiance, environment.intensity);
     archive(environment.worldFromMap[0], environment.worldFromMap[1], environment.worldFromMap[2]);
-    archive(environment.background);
+    archive(environment.background, environment.backgroundImage, environment.castsShadow);
 }
 
 template<typename Archive>

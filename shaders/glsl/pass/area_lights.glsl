@@ -6,11 +6,10 @@
 /// ray to the centre. AREA_MAP_SHADOWS: by a shadow map about the centre, as soft as of a sphere that is as large seen
 /// from the front; with AREA_POINT_SHADOWS as of a point. MIRRORED_LIGHTS: what an ideal mirror shows of them.
 ///
-/// Points: a lattice whose first 2^m points are a lattice for every m (Hickernell et al., "Extensible lattice sequences",
-/// SIAM J. Sci. Comput. 22(3), 2000; generator 1, 182667 of Cools, Kuo, Nuyens, ibid. 28(6), 2006), shifted from pixel to
-/// pixel and from light to light by a hash, and folded like a tent where what is integrated has ends (Hickernell, MCQMC
-/// 2000): smooth integrands then converge with the square of the number of points. Jittered frames go on where the last
+/// Points: those of common/pixel_lattice.glsl, shifted from pixel to pixel and from light to light by a hash, and folded
+/// like a tent where what is integrated has ends (Hickernell, MCQMC 2000): smooth integrands then converge with the square of the number of points. Jittered frames go on where the last
 /// one stopped, so that they add up to more points.
+#include "common/pixel_lattice.glsl"
 #include "light/area_sample.glsl"
 #include "pass/area_reflected.glsl"
 
@@ -58,38 +57,10 @@ float area_map_visible_of(int first, AreaLight light, LightReceiver r, float are
 uniform int uAreaPointsFirst, uAreaPointsEnd, uAreaPointsAll;  // this draw's points, and the number of all
 uniform int uAreaStart;                                        // points that earlier frames took
 
-/// A hash of three numbers as two (Jarzynski and Olano, "Hash functions for GPU rendering", JCGT 9(3), 2020: pcg3d).
-uvec2 area_hash(uvec3 v)
-{
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v.xy;
-}
-
 /// Where a light's points of one pixel start.
-uvec2 area_shift(int light, int type) { return area_hash(uvec3(uvec2(gl_FragCoord.xy), uint(light * 4 + type))); }
+uvec2 area_shift(int light, int type) { return lattice_hash(uvec3(uvec2(gl_FragCoord.xy), uint(light * 4 + type))); }
 
-uint area_reversed(uint i)
-{
-    i = ((i >> 1u) & 0x55555555u) | ((i & 0x55555555u) << 1u);
-    i = ((i >> 2u) & 0x33333333u) | ((i & 0x33333333u) << 2u);
-    i = ((i >> 4u) & 0x0f0f0f0fu) | ((i & 0x0f0f0f0fu) << 4u);
-    i = ((i >> 8u) & 0x00ff00ffu) | ((i & 0x00ff00ffu) << 8u);
-    return (i >> 16u) | (i << 16u);
-}
-
-/// In [0, 1)^2. 32-bit integers, which wrap around: no digit is lost.
-vec2 area_point(uvec2 shift, int i)
-{
-    uvec2 u = shift + area_reversed(uint(uAreaStart + i)) * uvec2(1u, 182667u);
-    return vec2(u >> 8u) * (1.0 / 16777216.0);
-}
+vec2 area_point(uvec2 shift, int i) { return lattice_point(shift, uAreaStart + i); }
 
 vec2 area_folded(vec2 u) { return 1.0 - abs(2.0 * u - 1.0); }
 /// Of a square whose second side is an angle.

@@ -200,6 +200,10 @@ vec3 spot_lights_of_cluster(LightReceiver r, MODEL_PARAMS params)
 #include "pass/area_lights.glsl"
 #endif
 
+#ifdef ENVIRONMENT_LIGHT
+#include "pass/environment.glsl"
+#endif
+
 /// Light of every type that the defines name.
 vec3 all_lights(LightReceiver r, MODEL_PARAMS params)
 {
@@ -221,6 +225,9 @@ vec3 all_lights(LightReceiver r, MODEL_PARAMS params)
 #endif
 #ifdef AREA_LIGHTS
     sum += all_area_lights(r, params);
+#endif
+#ifdef ENVIRONMENT_LIGHT
+    sum += environment_light(r, params);
 #endif
     return sum;
 }

@@ -6,7 +6,7 @@
 ///        distance  to the light, m; 0 where its light does not reach
 #if defined(DIRECTIONAL_SHADOW_RAYS) || defined(POINT_SHADOW_RAYS) || defined(SPOT_SHADOW_RAYS)
 #define SHADOW_RAYS
-#elif defined(AREA_SHADOWS) || defined(AREA_HARD_SHADOWS)
+#elif defined(AREA_SHADOWS) || defined(AREA_HARD_SHADOWS) || defined(ENVIRONMENT_SHADOWS)
 #define SHADOW_RAYS
 #endif
 

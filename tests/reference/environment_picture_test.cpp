@@ -1,0 +1,204 @@
+/// Pictures of surfaces in an environment, drawn with OpenGL, against the reference.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "environment/pictures.hpp"
+#include "passes/rendering.hpp"
+#include "reference/pixel.hpp"
+
+namespace lobe::reference {
+namespace {
+
+constexpr int kWidth = 60, kHeight = 24;
+
+struct Surface {
+    const char* model;
+    double roughness, metallic;
+};
+
+/// A ball, fine enough that its normals are those of a sphere.
+Scene ball(const Surface& surface) {
+    Scene scene;
+    for (int i = 0; i < 3; ++i) {
+        const int material = test::addMaterial(scene, surface.model);
+        const Brdf& brdf = requireBrdf(surface.model);
+        if (brdf.fromMetallicRoughness)
+            scene.materials[static_cast<size_t>(material)].values =
+                brdf.fromMetallicRoughness({glm::dvec3(0.8, 0.7, 0.5), surface.metallic, surface.roughness});
+    }
+    test::addInstance(scene, test::addSphere(scene, 0, 64), glm::scale(glm::dmat4(1.0), glm::dvec3(0.9)));
+    scene.images.push_back(test::directionPicture(128, 64, test::skyWithLamps));
+    scene.environment = Environment{};
+    scene.environment->image = 0;
+    return scene;
+}
+
+Camera camera() {
+    Camera camera = lookAt({0.4, 0.7, 4.0}, {0.0, 0.0, 0.0}, 0.52);
+    camera.zNear = 0.01;
+    return camera;
+}
+
+Image drawn(const Scene& scene, const Quality& quality) {
+    RenderOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.quality = quality;
+    return test::render(scene, camera(), options);
+}
+
+Quality exact() {
+    Quality quality;
+    quality.samples = 1;
+    quality.gbufferBits = 32;
+    quality.shadows = Shadows::none;
+    return quality;
+}
+
+std::vector<glm::dvec3> truth(const Scene& scene, double error, bool shadows = false) {
+    const PixelIntegrator integrator(std::make_shared<const Scene>(scene), camera(), kWidth, kHeight,
+                                     {.filter = PixelFilter::point, .shadows = shadows});
+    std::vector<glm::dvec3> pixels(kWidth * kHeight);
+    Effort effort;
+    effort.relativeError = error;
+    effort.floor = glm::dvec3(0.05);
+    std::vector<std::thread> threads;
+    const int count = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    for (int t = 0; t < count; ++t)
+        threads.emplace_back([&, t] {
+            for (int y = t; y < kHeight; y += count)
+                for (int x = 0; x < kWidth; ++x)
+                    pixels[static_cast<size_t>(y * kWidth + x)] = integrator.at(x, y, effort, 1).total();
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    return pixels;
+}
+
+/// Mean of |difference| over the mean, and of the difference.
+std::pair<double, double> errorOf(const Image& image, const std::vector<glm::dvec3>& truths) {
+    double off = 0.0, bias = 0.0, sum = 0.0;
+    for (size_t i = 0; i < truths.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const float value = image.values[i * image.channelCount() + static_cast<size_t>(c)];
+            EXPECT_TRUE(std::isfinite(value) && value >= 0.0F);
+            off += std::abs(static_cast<double>(value) - truths[i][c]);
+            bias += static_cast<double>(value) - truths[i][c];
+            sum += truths[i][c];
+        }
+    return {off / sum, bias / sum};
+}
+
+class EnvironmentPicture : public testing::TestWithParam<Surface> {};
+
+/// The bounds of `prefiltered` are those of the split sum with a dominant direction (docs/environment.md); sampling
+/// has none but its noise.
+TEST_P(EnvironmentPicture, AgreesWithTheReference) {
+    const Scene scene = ball(GetParam());
+    const auto truths = truth(scene, 5e-3);
+    Quality quality = exact();
+    const auto [off, bias] = errorOf(drawn(scene, quality), truths);
+    quality.envLighting = EnvironmentLighting::sampled;
+    quality.envSamples = 512;
+    quality.samples = 1;
+    const auto [noise, sampledBias] = errorOf(drawn(scene, quality), truths);
+    std::printf("%s %.2f: prefiltered %.2f %%, bias %.2f %%; sampled %.2f %%, bias %.2f %%\n", GetParam().model,
+                GetParam().roughness, 100 * off, 100 * bias, 100 * noise, 100 * sampledBias);
+    EXPECT_LT(off, 0.08);
+    EXPECT_LT(noise, 0.03);
+    EXPECT_LT(std::abs(sampledBias), 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, EnvironmentPicture,
+                         testing::Values(Surface{"lambert", 1.0, 0.0}, Surface{"metallic_roughness", 0.2, 1.0},
+                                         Surface{"metallic_roughness", 0.5, 0.0}, Surface{"metallic_roughness", 1.0, 1.0},
+                                         Surface{"cook_torrance", 0.5, 1.0}, Surface{"ward", 0.4, 1.0},
+                                         Surface{"phong", 0.5, 1.0}, Surface{"ashikhmin_shirley", 0.4, 1.0},
+                                         Surface{"oren_nayar", 1.0, 0.0}, Surface{"he", 0.5, 1.0}));
+
+TEST(EnvironmentPictures, MirrorAndBackgroundAreTheMapItself) {
+    const Scene scene = ball({"mirror", 0.0, 1.0});
+    const auto [off, bias] = errorOf(drawn(scene, exact()), truth(scene, 1e-3));
+    EXPECT_LT(off, 2e-3);  // edges of lamps on either side of a pixel's ray
+}
+
+TEST(EnvironmentPictures, DiffuseByHarmonicsIsClose) {
+    const Scene scene = ball({"lambert", 1.0, 0.0});
+    const auto truths = truth(scene, 2e-3);
+    for (const auto& [diffuse, bound] : {std::pair(EnvironmentDiffuse::map, 2e-3), std::pair(EnvironmentDiffuse::sh4, 0.02),
+                                         std::pair(EnvironmentDiffuse::sh2, 0.05)}) {
+        Quality quality = exact();
+        quality.envDiffuse = diffuse;
+        const auto [off, bias] = errorOf(drawn(scene, quality), truths);
+        std::printf("diffuse %d: %.3f %%\n", static_cast<int>(diffuse), 100 * off);
+        EXPECT_LT(off, bound);
+    }
+}
+
+TEST(EnvironmentPictures, ForwardShadesAsDeferredDoes) {
+    for (const char* model : {"metallic_roughness", "mirror", "he"}) {
+        const Scene scene = ball({model, 0.4, 0.5});
+        Quality quality = exact();
+        quality.normalBits = 32;
+        const Image deferred = drawn(scene, quality);
+        quality.shading = Shading::forward;
+        const Image forward = drawn(scene, quality);
+        size_t apart = 0;
+        for (size_t i = 0; i < deferred.values.size(); ++i)
+            apart += std::abs(deferred.values[i] - forward.values[i]) > 2e-3F * deferred.values[i] + 1e-5F ? 1U : 0U;
+        EXPECT_LT(apart, deferred.values.size() / 50) << model;
+    }
+}
+
+/// A sphere of albedo A in an environment of 1 shows A.
+TEST(EnvironmentPictures, WhiteFurnace) {
+    for (double roughness : {0.05, 0.3, 0.7, 1.0}) {
+        Scene scene = ball({"ggx", roughness, 1.0});
+        scene.images.clear();
+        scene.environment->image = -1;
+        const auto truths = truth(scene, 1e-3);
+        Quality quality = exact();
+        const auto [off, bias] = errorOf(drawn(scene, quality), truths);
+        quality.envLighting = EnvironmentLighting::sampled;
+        quality.envSamples = 1024;
+        const auto [noise, sampledBias] = errorOf(drawn(scene, quality), truths);
+        std::printf("furnace, roughness %.2f: prefiltered %.3f %%, sampled %.3f %%, bias %.3f %%\n", roughness, 100 * off,
+                    100 * noise, 100 * sampledBias);
+        EXPECT_LT(off, 5e-3);
+        EXPECT_LT(std::abs(sampledBias), 5e-4);
+    }
+}
+
+/// What no map should hold, at roughness 0 and 1, with the poles in view and the seam turned.
+TEST(EnvironmentPictures, ExtremesStayFinite) {
+    for (const auto& [width, height] : {std::pair(1, 1), std::pair(64, 32)}) {
+        for (double roughness : {0.0, 1.0}) {
+            Scene scene = ball({"metallic_roughness", roughness, 1.0});
+            scene.images[0] = test::floatPicture(width, height, [&](int x, int y) {
+                if (width == 1) return glm::vec3(2.0F);
+                if (x == 3) return glm::vec3(std::numeric_limits<float>::quiet_NaN());
+                if (x == 4) return glm::vec3(std::numeric_limits<float>::infinity());
+                if (x == 5) return glm::vec3(-1.0F);
+                return glm::vec3(x == 0 && y == 0 ? 1e6F : 0.0F);
+            });
+            scene.environment->worldFromMap = glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(0.3, 0.9, 0.1)));
+            for (const EnvironmentLighting lighting : {EnvironmentLighting::prefiltered, EnvironmentLighting::sampled})
+                for (const EnvironmentDiffuse diffuse :
+                     {EnvironmentDiffuse::sh2, EnvironmentDiffuse::sh4, EnvironmentDiffuse::map}) {
+                    Quality quality = exact();
+                    quality.envLighting = lighting;
+                    quality.envDiffuse = diffuse;
+                    const Image image = drawn(scene, quality);
+                    for (float value : image.values)
+                        ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
+                }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lobe::reference
