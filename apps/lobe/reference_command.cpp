@@ -119,9 +119,6 @@ int referenceCommand(const std::vector<std::string>& list) {
     imageFiles.write(shot.output, truth.image,
                      {.metadata = metadataOf(record), .exrPrecision = ExrPrecision::single});
 
-    if (truth.badTexels > 0)
-        std::cerr << "lobe: warning: " << scene->file << ": the environment has " << truth.badTexels
-                  << " texels that are negative or not finite; taken as 0\n";
     if (r.json)
         std::cout << nlohmann::ordered_json{{"schema", 1},
                                             {"output", shot.output},
