@@ -44,7 +44,8 @@ Result measure(gl::Context& context, Scene scene, int width, int height, int fra
     RenderOptions options;
     options.width = width;
     options.height = height;
-    options.quality = {.samples = 1};
+    // What shadows take, lobe-bench shadows says.
+    options.quality = {.samples = 1, .shadows = Shadows::none};
     options.timePasses = true;
     Renderer renderer(context);
     renderer.setScene(std::make_shared<Scene>(std::move(scene)), options);

@@ -52,6 +52,7 @@ double cosineOfNode(int node) {
 std::vector<SplitNode> splitNodes(const Brdf& brdf, std::span<const double> values) {
     std::vector<SplitNode> nodes(kAngles);
     const std::array<double, 2> weights = weightsOf(brdf, values);
+    const std::vector<glm::dvec3> draws = fit::spreadDraws(kDraws);
     for (int n = 0; n < kAngles; ++n) {
         const fit::View view(1.0 - cosineOfNode(n));
         SplitNode& node = nodes[static_cast<size_t>(n)];
@@ -59,7 +60,7 @@ std::vector<SplitNode> splitNodes(const Brdf& brdf, std::span<const double> valu
         if (brdf.area->terms == 0) continue;
         glm::dvec3 middle(0.0);
         double total = 0.0;
-        for (const fit::TermSample& sample : fit::sampleTerms(brdf, values, view, kDraws)) {
+        for (const fit::TermSample& sample : fit::sampleTerms(brdf, values, view, draws)) {
             for (size_t t = 0; t < 2; ++t)
                 node.albedo[t] += sample.terms.terms[t] / (sample.density * kDraws);
             const double light = brightness(sample.terms, weights) / sample.density;

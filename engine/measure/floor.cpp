@@ -14,13 +14,13 @@ bool isInteger(const Channel& channel) {
     return channel.format.ends_with("UI");
 }
 
-/// Reads every channel that the pass reads once, and writes every one that it writes.
-std::string floorShader(const FramePlan& plan, const PlannedPass& pass,
+/// Reads every channel that a pass reads once, and writes every one that it writes.
+std::string floorShader(const FramePlan& plan, const std::vector<std::string>& reads,
                         const std::vector<std::string>& colors) {
     std::string uniforms, outputs, body = "    float sum = 0.0;\n";
-    for (size_t i = 0; i < pass.reads.size(); ++i) {
+    for (size_t i = 0; i < reads.size(); ++i) {
         const std::string n = std::to_string(i);
-        const bool integer = isInteger(*plan.channel(pass.reads[i]));
+        const bool integer = isInteger(*plan.channel(reads[i]));
         uniforms += std::string("uniform ") + (integer ? "usampler2D" : "sampler2D") + " uRead" + n + ";\n";
         body += "    sum += float(texelFetch(uRead" + n + ", ivec2(gl_FragCoord.xy), 0).x);\n";
     }
@@ -49,8 +49,13 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
         const bool geometry = pass.name == "gbuffer";
         std::vector<std::string> colors = pass.writes;
         std::erase(colors, "depth");
+        // Shadow maps have a size of their own: passes that draw them have no floor here, those that read them the one
+        // without.
+        if (!std::ranges::all_of(colors, [&](const std::string& c) { return targets.has(c); })) continue;
+        std::vector<std::string> reads = pass.reads;
+        std::erase_if(reads, [&](const std::string& c) { return !targets.has(c); });
         const std::map<std::string, std::string> generated = {
-            {"generated/floor.frag", floorShader(plan, pass, colors)}};
+            {"generated/floor.frag", floorShader(plan, reads, colors)}};
         const gl::Program program(library.source("pass/screen.vert", {}),
                                   library.source("generated/floor.frag", {}, generated), "floor");
         double best = 1e30;
@@ -59,9 +64,9 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
                               geometry ? targets.gbuffer() : targets.lighting(colors.front()));
             program.use();
             program.set("uFarDepth", 0.5f);
-            for (size_t i = 0; i < pass.reads.size(); ++i) {
+            for (size_t i = 0; i < reads.size(); ++i) {
                 glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
-                glBindTexture(GL_TEXTURE_2D, targets.texture(pass.reads[i]));
+                glBindTexture(GL_TEXTURE_2D, targets.texture(reads[i]));
                 glBindSampler(static_cast<GLuint>(i), 0);
                 program.set("uRead" + std::to_string(i), static_cast<int>(i));
             }

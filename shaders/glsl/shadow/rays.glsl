@@ -90,7 +90,11 @@ RayPair ray_pair(Ray ray, int texel)
                    ray_project(ray, t2.yzw));
 }
 
-float ray_edge(vec3 p, vec3 q) { return p.x * q.y - p.y * q.x; }
+float ray_cross(vec3 p, vec3 q) { return p.x * q.y - p.y * q.x; }
+
+/// Twice the edge function. Of q, p it is the same but for the sign, and of p, p it is 0, in every bit, also where a compiler
+/// fuses one of the two products with the difference: neighbours must agree about the edge that they share.
+float ray_edge(vec3 p, vec3 q) { return ray_cross(p, q) - ray_cross(q, p); }
 
 /// Weights of the vertices of a pair's triangles where the ray passes their planes, not divided by their sums.
 void ray_weights(RayPair p, out vec3 abc, out vec3 dcb)
@@ -101,12 +105,13 @@ void ray_weights(RayPair p, out vec3 abc, out vec3 dcb)
 }
 
 /// Whether the ray meets a triangle whose vertices have these weights, not divided by their sum, and depths. A triangle
-/// seen from its edge has the sum 0: its distance is no number or infinite, and no comparison holds.
+/// seen from its edge has the sum 0, and is not met.
 bool ray_meets_triangle(Ray ray, vec3 weights, vec3 depths)
 {
-    float t = dot(weights, depths) / (weights.x + weights.y + weights.z);
+    float sum = weights.x + weights.y + weights.z;
+    float t = dot(weights, depths) / sum;
     bool inside = min(min(weights.x, weights.y), weights.z) >= 0.0 || max(max(weights.x, weights.y), weights.z) <= 0.0;
-    return inside && t > 0.0 && t < ray.end;
+    return inside && sum != 0.0 && t > 0.0 && t < ray.end;
 }
 
 /// The next leaf that the ray meets, from `node` on: texel and number of its pairs, (0, 0) if there is none. `node`
