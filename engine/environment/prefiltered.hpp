@@ -15,7 +15,7 @@
 namespace lobe::environment {
 
 /// Changes whenever the same input would give other texels: part of the key under which they are kept.
-inline constexpr int kVersion = 2;
+inline constexpr int kVersion = 3;
 
 /// What is made.
 struct Request {

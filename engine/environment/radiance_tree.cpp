@@ -89,13 +89,18 @@ glm::dvec3 octahedralDirection(glm::dvec2 p) {
 RadianceTree::RadianceTree(const EnvironmentMap& map) : size_(sizeFor(map)) {
     const auto side = static_cast<size_t>(size_);
     std::vector<Node>& leaves = levels_.emplace_back(side * side);
-    // Three points for each texel of the map, that no bright one is missed.
-    const int sub = std::clamp(static_cast<int>(std::ceil(1.7 * map.width() / size_)), 2, 16);
-    const double step = 2.0 / size_ / sub;
+    // Three points across each texel of the map, that no bright one is missed; more near its poles, where texels are
+    // narrow.
+    const int plain = std::clamp(static_cast<int>(std::ceil(1.7 * map.width() / size_)), 2, 16);
+    const double narrow = std::min(12.0 * kPi / map.height(), 0.5);
     inParallel(side, [&](size_t y) {
         for (size_t x = 0; x < side; ++x) {
-            glm::dvec3 energy(0.0), bright(0.0), plain(0.0);
+            glm::dvec3 energy(0.0), bright(0.0), even(0.0);
             double solidAngle = 0.0;
+            const glm::dvec3 middle = octahedralDirection(
+                {(2.0 * static_cast<double>(x) + 1.0) / size_ - 1.0, (2.0 * static_cast<double>(y) + 1.0) / size_ - 1.0});
+            const int sub = std::hypot(middle.x, middle.z) < narrow ? 4 * plain : plain;
+            const double step = 2.0 / size_ / sub;
             for (int j = 0; j < sub; ++j)
                 for (int i = 0; i < sub; ++i) {
                     const glm::dvec2 p(-1.0 + (static_cast<double>(x) * sub + i + 0.5) * step,
@@ -110,9 +115,9 @@ RadianceTree::RadianceTree(const EnvironmentMap& map) : size_(sizeFor(map)) {
                     energy += light;
                     solidAngle += part;
                     bright += direction * (light.r + light.g + light.b);
-                    plain += direction * part;
+                    even += direction * part;
                 }
-            const glm::dvec3 sum = glm::length(bright) > 0.0 ? bright : plain;
+            const glm::dvec3 sum = glm::length(bright) > 0.0 ? bright : even;
             leaves[y * side + x] = {glm::vec3(glm::normalize(sum)), 0.0F, glm::vec3(energy),
                                     static_cast<float>(solidAngle)};
         }

@@ -360,7 +360,7 @@ const std::vector<Knob>& knobTable() {
         {.name = "env_samples",
          .title = "Environment samples",
          .help = "directions to the environment where it is sampled, half by its brightness, half by the lobe",
-         .values = {"16", "64", "256"},
+         .values = {"16", "32", "64", "256"},
          .range = {{2, 4096}},
          .get = [](const Quality& q) { return std::to_string(q.envSamples); },
          .set = [](Quality& q, const std::string& value) { q.envSamples = std::stoi(value); },
