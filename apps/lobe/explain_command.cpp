@@ -74,7 +74,8 @@ int explainCommand(const std::vector<std::string>& list) {
         .add_option("--error", error, "standard error wanted of the truth, as a share of it [0.001]")
         ->type_name("SHARE")
         ->check(CLI::Range(1e-5, 1.0));
-    arguments.app().add_flag("--no-shadows", noShadows, "everything sees every light, as with --shadows none");
+    arguments.app().add_flag("--no-shadows", noShadows,
+                             "everything sees every light, as with --shadows none");
     arguments.app().add_flag("--json", json, "for programs");
     arguments.addSettings();
     if (!arguments.parse(list)) return 0;

@@ -44,8 +44,7 @@ void addOptions(CLI::App& app, ReferenceArguments& r) {
            "mean over the pixel [point]")
         ->type_name("NAME")
         ->check(CLI::IsMember({"point", "box"}));
-    app.add_flag("--no-shadows", r.noShadows,
-                 "everything sees every light, as --shadows none has it");
+    app.add_flag("--no-shadows", r.noShadows, "everything sees every light, as --shadows none has it");
     app.add_flag("--cache,!--no-cache", r.cache,
                  "go on from an earlier truth of the same picture, and keep this one (default)");
     app.add_flag("--json", r.json, "what was reached, as JSON on standard output");
