@@ -33,7 +33,8 @@ json recordOf(const Shot& shot, const Scene& scene, const Camera& camera, const 
         for (json& file : settings["brdf_file"])
             file = std::filesystem::absolute(file.get<std::string>()).lexically_normal().string();
     if (settings.contains("env"))
-        settings["env"] = std::filesystem::absolute(settings["env"].get<std::string>()).lexically_normal().string();
+        settings["env"] =
+            std::filesystem::absolute(settings["env"].get<std::string>()).lexically_normal().string();
     json record = {{"schema", 1},
                    {"lobe", paths::kVersion},
                    {"scene", std::filesystem::absolute(shot.scene).lexically_normal().string()},

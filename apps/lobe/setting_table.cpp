@@ -193,7 +193,8 @@ std::vector<Setting> makeTable() {
          64},
 
         {"env", text, nullptr,
-         "picture of the environment that lights the scene, in place of its own: equirectangular, a cube unfolded "
+         "picture of the environment that lights the scene, in place of its own: equirectangular, a cube "
+         "unfolded "
          "as a cross, or, as a folder or a name with *, six faces px nx py ny pz nz (docs/environment.md)",
          "Scene"},
         {"env_rotation",

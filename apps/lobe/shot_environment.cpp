@@ -51,7 +51,8 @@ Bitmap sixFaces(ImageFiles& files, const fs::path& given, ContentHash& hash) {
         for (size_t i = 0; i < faces.size(); ++i) {
             const auto file = faceFile(given, names[i]);
             if (!file)
-                throw InputError(given.string() + ": no face " + names[i] + "; expected px, nx, py, ny, pz and nz, or " +
+                throw InputError(given.string() + ": no face " + names[i] +
+                                 "; expected px, nx, py, ny, pz and nz, or " +
                                  "posx, negx, posy, negy, posz and negz");
             faces[i] = decoded(files, *file, hash);
         }

@@ -1,4 +1,5 @@
-/// The environment as the settings change it: another picture, turned, brighter, blurred behind surfaces or not seen.
+/// The environment as the settings change it: another picture, turned, brighter, blurred behind surfaces or
+/// not seen.
 #pragma once
 
 #include "scene/scene.hpp"

@@ -25,7 +25,8 @@ Bitmap blurredPicture(const EnvironmentMap& map) {
         for (size_t x = 0; x < width; ++x) {
             const double phi = 2.0 * kPi * (static_cast<double>(x) + 0.5) / result.width;
             const double theta = kPi * (static_cast<double>(y) + 0.5) / result.height;
-            const glm::vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+            const glm::vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
+                              -std::sin(theta) * std::cos(phi));
             const glm::dvec3 rgb = tree.blurred(d, gaussian);
             for (size_t c = 0; c < 3; ++c)
                 values[3 * (y * width + x) + c] = static_cast<float>(rgb[static_cast<int>(c)]);

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "base/content_hash.hpp"
-#include "scene/environment_picture.hpp"
 #include "math/sphere.hpp"
+#include "scene/environment_picture.hpp"
 
 namespace lobe {
 namespace {

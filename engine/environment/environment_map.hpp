@@ -33,14 +33,16 @@ public:
     bool constant() const { return texels_.empty(); }
     size_t badTexels() const { return badTexels_; }
 
-    /// radiance() = scale() * relative(mapFromWorld() * direction): what of it intensity and rotation leave as it is.
+    /// radiance() = scale() * relative(mapFromWorld() * direction): what of it intensity and rotation leave
+    /// as it is.
     glm::dvec3 relative(const glm::dvec3& mapDirection) const;
     const glm::dvec3& scale() const { return scale_; }
     glm::dmat3 mapFromWorld() const { return glm::transpose(worldFromMap_); }
     /// Texels of the picture, 1 x 1 for a constant environment.
     int width() const { return constant() ? 1 : width_; }
     int height() const { return constant() ? 1 : height_; }
-    /// relative() at the centre of a texel; rows from the top. Beyond its edges: around the seam, over the poles.
+    /// relative() at the centre of a texel; rows from the top. Beyond its edges: around the seam, over the
+    /// poles.
     glm::dvec3 at(int x, int y) const { return constant() ? glm::dvec3(1.0) : texel(x, y); }
     /// Of the texels: two maps with the same are alike but for scale and rotation.
     std::string contentHash() const;

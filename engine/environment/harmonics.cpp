@@ -69,7 +69,8 @@ double least(const std::vector<glm::vec3>& coefficients) {
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const glm::dvec3 at = irradianceAt(
-                coefficients, octahedralDirection({(2.0 * x + 1.0) / kSide - 1.0, (2.0 * y + 1.0) / kSide - 1.0}));
+                coefficients,
+                octahedralDirection({(2.0 * x + 1.0) / kSide - 1.0, (2.0 * y + 1.0) / kSide - 1.0}));
             result = std::min({result, at.r, at.g, at.b});
         }
     return result;

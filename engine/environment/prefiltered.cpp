@@ -18,7 +18,8 @@ constexpr int kLargestSummed = 100;
 constexpr int kMostBlurred = 512;
 /// Squares along a side of a layer times its lobe's spread: about a third of it is one square.
 constexpr double kSquaresPerSpread = 7.0;
-/// Of each layer's lobe over the last one's; below this spread, where little is seen of the difference, 1.4 times that.
+/// Of each layer's lobe over the last one's; below this spread, where little is seen of the difference, 1.4
+/// times that.
 constexpr double kStep = 1.45, kFineSpread = 0.02;
 
 /// A lobe that the map is blurred with.
@@ -51,8 +52,8 @@ struct Row {
     std::vector<SplitNode> nodes;
 };
 
-/// From narrow to wide: at steps of spread among the rows, which are the widths in use, and before them what the
-/// narrowest lobe becomes at grazing angles.
+/// From narrow to wide: at steps of spread among the rows, which are the widths in use, and before them what
+/// the narrowest lobe becomes at grazing angles.
 std::vector<Layer> layersFor(const Request& request, const std::vector<Row>& rows, double finest) {
     const Brdf& brdf = *request.lobe.brdf;
     const auto spreadOf = [](const Row& row) { return row.nodes.back().spread; };
@@ -83,7 +84,8 @@ std::vector<Layer> layersFor(const Request& request, const std::vector<Row>& row
         const bool end = i + 1 == sorted.size();
         // All that are finer than the map's squares show the map itself.
         if (!end && spreadOf(*sorted[i + 1]) < finest) continue;
-        if (!layers.empty() && i > 0 && !end && spread < last * (spread < kFineSpread ? 1.4 : 1.0) * kStep) continue;
+        if (!layers.empty() && i > 0 && !end && spread < last * (spread < kFineSpread ? 1.4 : 1.0) * kStep)
+            continue;
         if (end && i > 0 && spread < last * 1.02) continue;
         layers.push_back({std::move(kernel), spread});
         last = spread;
@@ -116,7 +118,8 @@ private:
 class Picture {
 public:
     explicit Picture(Prefiltered& result) : result_(result) {
-        result_.texels.assign(static_cast<size_t>(result.width) * static_cast<size_t>(result.height) * 4, 0.0F);
+        result_.texels.assign(static_cast<size_t>(result.width) * static_cast<size_t>(result.height) * 4,
+                              0.0F);
     }
     float* at(int x, int y) {
         return &result_.texels[4 * (static_cast<size_t>(y) * static_cast<size_t>(result_.width) +
@@ -136,7 +139,8 @@ public:
                 set(square.x + 1 + x, square.y + 1 + y, value(x, y), 1.0);
         });
         for (int i = -1; i <= size; ++i)
-            for (const auto& [x, y] : {std::pair(i, -1), std::pair(i, size), std::pair(-1, i), std::pair(size, i)}) {
+            for (const auto& [x, y] :
+                 {std::pair(i, -1), std::pair(i, size), std::pair(-1, i), std::pair(size, i)}) {
                 const auto [fromX, fromY] = foldedSquare(x, y, size);
                 std::copy_n(at(square.x + 1 + fromX, square.y + 1 + fromY), 4,
                             at(square.x + 1 + x, square.y + 1 + y));
@@ -178,8 +182,9 @@ Prefiltered prefiltered(const RadianceTree& tree, const Request& request) {
         result.rowsPerLogWidth = (result.tableRows - 1) / (high - low);
     }
     inParallel(rows.size(), [&](size_t i) {
-        rows[i].width = varies ? std::exp(result.firstLogWidth + static_cast<double>(i) / result.rowsPerLogWidth)
-                               : request.widths.first;
+        rows[i].width = varies
+                            ? std::exp(result.firstLogWidth + static_cast<double>(i) / result.rowsPerLogWidth)
+                            : request.widths.first;
         rows[i].nodes = splitNodes(*request.lobe.brdf, valuesAt(request, rows[i].width));
     });
     const double finest = 1.8 / tree.size();  // half a square of the tree
@@ -199,7 +204,8 @@ Prefiltered prefiltered(const RadianceTree& tree, const Request& request) {
     for (Square& layer : result.layers)
         std::tie(layer.x, layer.y) = packing.place(layer.size + 2, layer.size + 2);
     if (request.irradiance)
-        std::tie(result.irradiance.x, result.irradiance.y) = packing.place(kIrradianceSize + 2, kIrradianceSize + 2);
+        std::tie(result.irradiance.x, result.irradiance.y) =
+            packing.place(kIrradianceSize + 2, kIrradianceSize + 2);
     std::tie(result.tableX, result.tableY) = packing.place(3 * kAngles, result.tableRows);
     result.width = widest;
     result.height = packing.height();
@@ -210,8 +216,7 @@ Prefiltered prefiltered(const RadianceTree& tree, const Request& request) {
         const bool itself = layers[i].spread < finest && square.size == tree.size();
         const RadianceTree::Rings rings(tree, layers[i].kernel);
         picture.fill(square, [&](int x, int y) {
-            if (square.size > kLargestSummed && !itself)
-                return rings.about(directionOf(x, y, square.size));
+            if (square.size > kLargestSummed && !itself) return rings.about(directionOf(x, y, square.size));
             if (itself) return glm::dvec3(tree.radiance(x, y));
             return tree.blurred(directionOf(x, y, square.size), layers[i].kernel);
         });

@@ -1,5 +1,6 @@
-/// An environment as one model shows it: the map blurred by the model's own lobe at several widths, what a table says of
-/// each angle of view, and irradiance, all in one picture that GLSL reads (pass/environment.glsl).
+/// An environment as one model shows it: the map blurred by the model's own lobe at several widths, what a
+/// table says of each angle of view, and irradiance, all in one picture that GLSL reads
+/// (pass/environment.glsl).
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,7 @@
 namespace lobe::environment {
 
 /// Changes whenever the same input would give other texels: part of the key under which they are kept.
-inline constexpr int kVersion = 2;
+inline constexpr int kVersion = 3;
 
 /// What is made.
 struct Request {
@@ -34,12 +35,12 @@ inline constexpr size_t kMostLayers = 16;
 
 struct Prefiltered {
     int width = 0, height = 0;
-    std::vector<float> texels;    ///< RGBA, rows from y = 0 on
-    std::vector<Square> layers;   ///< from narrow to wide
-    Square irradiance;            ///< of irradiance / pi; size 0: none
-    int tableX = 0, tableY = 0;   ///< kAngles x tableRows texels three times, side by side
+    std::vector<float> texels;   ///< RGBA, rows from y = 0 on
+    std::vector<Square> layers;  ///< from narrow to wide
+    Square irradiance;           ///< of irradiance / pi; size 0: none
+    int tableX = 0, tableY = 0;  ///< kAngles x tableRows texels three times, side by side
     int tableRows = 1;
-    double firstLogWidth = 0.0;   ///< of the table's rows: ln of the first width
+    double firstLogWidth = 0.0;  ///< of the table's rows: ln of the first width
     double rowsPerLogWidth = 0.0;
 };
 

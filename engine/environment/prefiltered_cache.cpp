@@ -47,7 +47,8 @@ bool fits(const Header& header, const Square& square) {
 bool good(const Header& header, const std::string& key) {
     constexpr int32_t kMostSide = 1 << 14;
     if (header.magic != kMagic || header.version != kVersion || header.key != characters(key)) return false;
-    if (header.width < 1 || header.height < 1 || header.width > kMostSide || header.height > kMostSide) return false;
+    if (header.width < 1 || header.height < 1 || header.width > kMostSide || header.height > kMostSide)
+        return false;
     if (header.layers < 0 || header.layers > static_cast<int32_t>(kMostLayers)) return false;
     for (int32_t i = 0; i < header.layers; ++i)
         if (!fits(header, header.squares[static_cast<size_t>(i)])) return false;

@@ -16,8 +16,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kLeast = 32, kMost = 1024;
 
-/// A square counts as a point where the kernel changes by less than this power of e across half of it, or where what
-/// that adds to the sum, or to the sum of weights, is below these shares of the mean and of the whole.
+/// A square counts as a point where the kernel changes by less than this power of e across half of it, or
+/// where what that adds to the sum, or to the sum of weights, is below these shares of the mean and of the
+/// whole.
 constexpr float kTolerance = 0.2F;
 constexpr float kOfMean = 4e-4F, kOfWeights = 1e-3F;
 
@@ -89,30 +90,38 @@ glm::dvec3 octahedralDirection(glm::dvec2 p) {
 RadianceTree::RadianceTree(const EnvironmentMap& map) : size_(sizeFor(map)) {
     const auto side = static_cast<size_t>(size_);
     std::vector<Node>& leaves = levels_.emplace_back(side * side);
-    // Three points for each texel of the map, that no bright one is missed.
-    const int sub = std::clamp(static_cast<int>(std::ceil(1.7 * map.width() / size_)), 2, 16);
-    const double step = 2.0 / size_ / sub;
+    // Three points across each texel of the map, that no bright one is missed; more near its poles, where
+    // texels are narrow.
+    const int plain = std::clamp(static_cast<int>(std::ceil(1.7 * map.width() / size_)), 2, 16);
+    const double narrow = std::min(12.0 * kPi / map.height(), 0.5);
     inParallel(side, [&](size_t y) {
         for (size_t x = 0; x < side; ++x) {
-            glm::dvec3 energy(0.0), bright(0.0), plain(0.0);
+            glm::dvec3 energy(0.0), bright(0.0), even(0.0);
             double solidAngle = 0.0;
+            const glm::dvec3 middle =
+                octahedralDirection({(2.0 * static_cast<double>(x) + 1.0) / size_ - 1.0,
+                                     (2.0 * static_cast<double>(y) + 1.0) / size_ - 1.0});
+            const int sub = std::hypot(middle.x, middle.z) < narrow ? 4 * plain : plain;
+            const double step = 2.0 / size_ / sub;
             for (int j = 0; j < sub; ++j)
                 for (int i = 0; i < sub; ++i) {
                     const glm::dvec2 p(-1.0 + (static_cast<double>(x) * sub + i + 0.5) * step,
                                        -1.0 + (static_cast<double>(y) * sub + j + 0.5) * step);
-                    const glm::dvec3 folded(std::abs(p.x), std::abs(p.y), 1.0 - std::abs(p.x) - std::abs(p.y));
+                    const glm::dvec3 folded(std::abs(p.x), std::abs(p.y),
+                                            1.0 - std::abs(p.x) - std::abs(p.y));
                     // The octahedron's point is at distance r: a square of the map has dA / r^3.
                     glm::dvec3 point = folded;
                     if (point.z < 0.0) point = {1.0 - folded.y, 1.0 - folded.x, folded.z};
                     const double r = glm::length(point);
                     const double part = step * step / (r * r * r);
-                    const glm::dvec3 direction = octahedralDirection(p), light = map.relative(direction) * part;
+                    const glm::dvec3 direction = octahedralDirection(p),
+                                     light = map.relative(direction) * part;
                     energy += light;
                     solidAngle += part;
                     bright += direction * (light.r + light.g + light.b);
-                    plain += direction * part;
+                    even += direction * part;
                 }
-            const glm::dvec3 sum = glm::length(bright) > 0.0 ? bright : plain;
+            const glm::dvec3 sum = glm::length(bright) > 0.0 ? bright : even;
             leaves[y * side + x] = {glm::vec3(glm::normalize(sum)), 0.0F, glm::vec3(energy),
                                     static_cast<float>(solidAngle)};
         }
@@ -148,7 +157,8 @@ RadianceTree::RadianceTree(const EnvironmentMap& map) : size_(sizeFor(map)) {
 }
 
 glm::vec3 RadianceTree::radiance(int x, int y) const {
-    const Node& node = levels_.front()[static_cast<size_t>(y) * static_cast<size_t>(size_) + static_cast<size_t>(x)];
+    const Node& node =
+        levels_.front()[static_cast<size_t>(y) * static_cast<size_t>(size_) + static_cast<size_t>(x)];
     return node.energy / node.solidAngle;
 }
 
@@ -175,8 +185,8 @@ glm::dvec3 RadianceTree::blurred(const glm::vec3& axis, const ZonalKernel& kerne
                 if (bound.value == 0.0F) continue;
                 const float change = node.radius * bound.slope;
                 const float error = bound.value * std::min(change * change / 6.0F, 1.0F);
-                if (change > kTolerance && (error * brightness(node.energy) > negligible ||
-                                            error * node.solidAngle > kOfWeights)) {
+                if (change > kTolerance &&
+                    (error * brightness(node.energy) > negligible || error * node.solidAngle > kOfWeights)) {
                     for (int q = 0; q < 4; ++q)
                         stack[depth++] = {static_cast<uint16_t>(at.level - 1),
                                           static_cast<uint16_t>(2 * at.x + (q & 1)),
@@ -204,9 +214,11 @@ glm::vec3 RadianceTree::read(size_t level, const glm::vec3& d) const {
     const float s = at.x - static_cast<float>(x), t = at.y - static_cast<float>(y);
     const auto texel = [&](int i, int j) {
         const auto [fx, fy] = foldedSquare(i, j, side);
-        return radiance_[level][static_cast<size_t>(fy) * static_cast<size_t>(side) + static_cast<size_t>(fx)];
+        return radiance_[level]
+                        [static_cast<size_t>(fy) * static_cast<size_t>(side) + static_cast<size_t>(fx)];
     };
-    return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), s), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), s), t);
+    return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), s),
+                    glm::mix(texel(x, y + 1), texel(x + 1, y + 1), s), t);
 }
 
 RadianceTree::Rings::Rings(const RadianceTree& tree, const ZonalKernel& kernel) : tree_(tree) {
@@ -218,8 +230,8 @@ RadianceTree::Rings::Rings(const RadianceTree& tree, const ZonalKernel& kernel) 
         const auto n = static_cast<size_t>(i);
         chord2[n] = std::exp2(-36.0 + 38.0 * i / kSteps);
         const double middle = 0.5 * (chord2[n] + chord2[n - 1]);
-        within[n] = within[n - 1] +
-                    kPi * (chord2[n] - chord2[n - 1]) * static_cast<double>(kernel.at(static_cast<float>(middle)));
+        within[n] = within[n - 1] + kPi * (chord2[n] - chord2[n - 1]) *
+                                        static_cast<double>(kernel.at(static_cast<float>(middle)));
     }
     const auto at = [&](double share) {
         const auto found = std::lower_bound(within.begin(), within.end(), share * within.back());
@@ -232,10 +244,11 @@ RadianceTree::Rings::Rings(const RadianceTree& tree, const ZonalKernel& kernel) 
         const double cosine = 1.0 - middle / 2.0;
         double level = 0.5 * std::log2(std::max(part, 1e-12) * tree.size_ * tree.size_ / (4.0 * kPi));
         level = std::clamp(std::floor(level + 0.5), 0.0, static_cast<double>(tree.levels_.size() - 1));
-        rings_.push_back({static_cast<float>(std::sqrt(std::max(middle * (1.0 - middle / 4.0), 0.0))),
-                          static_cast<float>(cosine), static_cast<float>(kShares[i + 1] - kShares[i]),
-                          static_cast<float>(2.0 * kPi / kAround * std::fmod(0.618034 * static_cast<double>(i), 1.0)),
-                          static_cast<size_t>(level)});
+        rings_.push_back(
+            {static_cast<float>(std::sqrt(std::max(middle * (1.0 - middle / 4.0), 0.0))),
+             static_cast<float>(cosine), static_cast<float>(kShares[i + 1] - kShares[i]),
+             static_cast<float>(2.0 * kPi / kAround * std::fmod(0.618034 * static_cast<double>(i), 1.0)),
+             static_cast<size_t>(level)});
     }
 }
 
@@ -246,9 +259,10 @@ glm::dvec3 RadianceTree::Rings::about(const glm::vec3& axis) const {
         glm::vec3 part(0.0F);
         glm::vec2 turned(std::cos(ring.phase), std::sin(ring.phase));
         for (int i = 0; i < kAround; ++i) {
-            part += tree_.read(ring.level, ring.cosine * frame[2] +
-                                               ring.sine * (turned.x * frame[0] + turned.y * frame[1]));
-            turned = {turned.x * kStepCosine - turned.y * kStepSine, turned.x * kStepSine + turned.y * kStepCosine};
+            part += tree_.read(
+                ring.level, ring.cosine * frame[2] + ring.sine * (turned.x * frame[0] + turned.y * frame[1]));
+            turned = {turned.x * kStepCosine - turned.y * kStepSine,
+                      turned.x * kStepSine + turned.y * kStepCosine};
         }
         sum += part * (ring.share / kAround);
     }

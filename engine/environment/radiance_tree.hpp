@@ -19,8 +19,8 @@ glm::dvec3 octahedralDirection(glm::dvec2 p);
 /// The square that one just outside the map's border is: each side folds over at its middle.
 std::pair<int, int> foldedSquare(int x, int y, int size);
 
-/// Squares of the octahedral map, each with its light as a whole and where most of it comes from. Directions are the
-/// map's, radiance is EnvironmentMap::relative's.
+/// Squares of the octahedral map, each with its light as a whole and where most of it comes from. Directions
+/// are the map's, radiance is EnvironmentMap::relative's.
 class RadianceTree {
 public:
     explicit RadianceTree(const EnvironmentMap& map);
@@ -29,12 +29,13 @@ public:
     int size() const { return size_; }
     /// Mean radiance of a square of the finest level.
     glm::vec3 radiance(int x, int y) const;
-    /// Radiance weighed by a kernel about a unit direction: the sum over squares that are small against how fast the
-    /// kernel changes, over the sum of the weights, so that a constant map stays as it is.
+    /// Radiance weighed by a kernel about a unit direction: the sum over squares that are small against how
+    /// fast the kernel changes, over the sum of the weights, so that a constant map stays as it is.
     glm::dvec3 blurred(const glm::vec3& axis, const ZonalKernel& kernel) const;
 
-    /// Nearly the same, far quicker for narrow kernels: a sum over rings about the axis that hold given shares of the
-    /// kernel, each read at twelve places from the level whose squares are as large as the parts of the ring.
+    /// Nearly the same, far quicker for narrow kernels: a sum over rings about the axis that hold given
+    /// shares of the kernel, each read at twelve places from the level whose squares are as large as the
+    /// parts of the ring.
     class Rings {
     public:
         Rings(const RadianceTree& tree, const ZonalKernel& kernel);
@@ -63,7 +64,7 @@ private:
     glm::vec3 read(size_t level, const glm::vec3& direction) const;
     int size_ = 0;
     std::vector<std::vector<glm::vec3>> radiance_;  ///< of each level
-    std::vector<std::vector<Node>> levels_;  ///< from the finest to 4 x 4
+    std::vector<std::vector<Node>> levels_;         ///< from the finest to 4 x 4
     glm::dvec3 mean_{0.0};
 };
 

@@ -88,13 +88,14 @@ ZonalKernel lobeKernel(const Brdf& brdf, std::span<const double> values, const s
         return brightness(terms, weights);
     };
     constexpr double kNextToNothing = 1e-2;
-    const auto most = std::max_element(nodes.begin(), nodes.end(), [&](const SplitNode& a, const SplitNode& b) {
-        return albedo(a) < albedo(b);
-    });
+    const auto most =
+        std::max_element(nodes.begin(), nodes.end(),
+                         [&](const SplitNode& a, const SplitNode& b) { return albedo(a) < albedo(b); });
     const size_t from = albedo(nodes.back()) > kNextToNothing * albedo(*most)
                             ? nodes.size() - 1
                             : static_cast<size_t>(most - nodes.begin());
-    if (albedo(nodes[from]) <= 0.0) return ZonalKernel([](double angle) { return std::max(std::cos(angle), 0.0); });
+    if (albedo(nodes[from]) <= 0.0)
+        return ZonalKernel([](double angle) { return std::max(std::cos(angle), 0.0); });
     const fit::View view(1.0 - cosineOfNode(static_cast<int>(from)));
     const glm::dmat3 about = frameAbout({-nodes[from].direction.x, 0.0, nodes[from].direction.y});
     return ZonalKernel([&](double angle) {

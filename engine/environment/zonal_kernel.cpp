@@ -77,7 +77,8 @@ float ZonalKernel::at(float chord2) const {
 
 ZonalKernel::Bound ZonalKernel::near(float chord2, float reach) const {
     for (size_t w = 0; w < kWindows; ++w)
-        if (reach * reach <= kReach[w] * kReach[w] * chord2) return windows_[w][static_cast<size_t>(place(chord2))];
+        if (reach * reach <= kReach[w] * kReach[w] * chord2)
+            return windows_[w][static_cast<size_t>(place(chord2))];
     const float far = std::sqrt(chord2) + reach;
     return upTo_[std::min(static_cast<size_t>(place(far * far)) + 1, static_cast<size_t>(kCount - 1))];
 }

@@ -1,5 +1,5 @@
-/// Light of the environment on the GPU: the map itself, what is prefiltered from it for each model, and directions
-/// drawn from it.
+/// Light of the environment on the GPU: the map itself, what is prefiltered from it for each model, and
+/// directions drawn from it.
 #pragma once
 
 #include <map>
@@ -21,8 +21,8 @@ public:
     /// `frame`: number of the jittered frame.
     void update(int frame) { frame_ = frame; }
 
-    /// Texture units from `firstUnit` on, and every uniform of pass/environment.glsl that the program, of one model,
-    /// uses. `samples`: directions in all. Returns the first free unit.
+    /// Texture units from `firstUnit` on, and every uniform of pass/environment.glsl that the program, of one
+    /// model, uses. `samples`: directions in all. Returns the first free unit.
     int bind(const gl::Program& program, int firstUnit, const std::string& model, int samples) const;
     /// What is seen behind surfaces.
     void bindBackground(const gl::Program& program, int unit) const;

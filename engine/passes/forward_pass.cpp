@@ -52,30 +52,31 @@ void ForwardPass::prepare() {
 }
 
 void ForwardPass::draw(Group& group, const View& view, SurfaceOrder order, bool rest) {
-    resources().surfaces.draw(group.part, view, order, [&](const gl::Program& program, const Variant& variant) {
-        const Scene& scene = resources().scene;
-        program.set("uForward", glm::vec3(view.forward));
-        program.set("uRayDirection", glm::vec3(view.rayDirection));
-        program.set("uRayDirectionDx", glm::vec3(view.rayDirectionDx));
-        program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
-        program.set("uAmbientRadiance", glm::vec3(scene.ambientRadiance.value_or(glm::dvec3(0.0))));
-        int unit = resources().rays.bind(program, kFirstLightUnit, view);
-        unit = resources().lights.bind(program, unit);
-        unit = resources().bodies.bind(program, unit, plan().areaPointsForward);
-        resources().environment.bind(program, unit, variant.brdf, plan().environmentSamplesForward);
-        resources().shadowMaps.bind(program);
-        if (scene.fog) {
-            program.set("uRayOrigin", glm::vec3(view.rayOrigin));
-            program.set("uRayOriginDx", glm::vec3(view.rayOriginDx));
-            program.set("uRayOriginDy", glm::vec3(view.rayOriginDy));
-            setFog(program, scene, view);
-            if (plan().airlightNodes > 0) setAirlight(program, scene, plan(), resources().lights);
-        }
-        if (peeler_) {
-            peeler_->bindLayer(program, !rest);
-            program.set("uPeelRest", rest ? 1 : 0);
-        }
-    });
+    resources().surfaces.draw(
+        group.part, view, order, [&](const gl::Program& program, const Variant& variant) {
+            const Scene& scene = resources().scene;
+            program.set("uForward", glm::vec3(view.forward));
+            program.set("uRayDirection", glm::vec3(view.rayDirection));
+            program.set("uRayDirectionDx", glm::vec3(view.rayDirectionDx));
+            program.set("uRayDirectionDy", glm::vec3(view.rayDirectionDy));
+            program.set("uAmbientRadiance", glm::vec3(scene.ambientRadiance.value_or(glm::dvec3(0.0))));
+            int unit = resources().rays.bind(program, kFirstLightUnit, view);
+            unit = resources().lights.bind(program, unit);
+            unit = resources().bodies.bind(program, unit, plan().areaPointsForward);
+            resources().environment.bind(program, unit, variant.brdf, plan().environmentSamplesForward);
+            resources().shadowMaps.bind(program);
+            if (scene.fog) {
+                program.set("uRayOrigin", glm::vec3(view.rayOrigin));
+                program.set("uRayOriginDx", glm::vec3(view.rayOriginDx));
+                program.set("uRayOriginDy", glm::vec3(view.rayOriginDy));
+                setFog(program, scene, view);
+                if (plan().airlightNodes > 0) setAirlight(program, scene, plan(), resources().lights);
+            }
+            if (peeler_) {
+                peeler_->bindLayer(program, !rest);
+                program.set("uPeelRest", rest ? 1 : 0);
+            }
+        });
 }
 
 void ForwardPass::drawSorted(const View& view) {

@@ -28,11 +28,12 @@ void GbufferPass::run(const View& view) {
         glEnable(GL_STENCIL_TEST);
         glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     }
-    resources().surfaces.draw(planned_, view, SurfaceOrder::byProgram, [&](const gl::Program& program, const Variant&) {
-        program.set("uForward", glm::vec3(view.forward));
-        program.set("uAmbientRadiance",
-                    glm::vec3(resources().scene.ambientRadiance.value_or(glm::dvec3(0.0))));
-    });
+    resources().surfaces.draw(
+        planned_, view, SurfaceOrder::byProgram, [&](const gl::Program& program, const Variant&) {
+            program.set("uForward", glm::vec3(view.forward));
+            program.set("uAmbientRadiance",
+                        glm::vec3(resources().scene.ambientRadiance.value_or(glm::dvec3(0.0))));
+        });
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);

@@ -76,7 +76,8 @@ void BodyLightPass::draw(const Variant& variant, const gl::Program& shader) cons
 void EnvironmentPass::draw(const Variant& variant, const gl::Program& shader) const {
     if (!variant.defines.contains("ENVIRONMENT_SAMPLED")) return resources().inputs.drawScreen(shader);
     const int pairs = EnvironmentLight::pairsOf(plan().environmentSamples);
-    const int each = std::max(1, (variant.defines.contains("ENVIRONMENT_SHADOWS") ? kRaysPerDraw : kPointsPerDraw) / 2);
+    const int each =
+        std::max(1, (variant.defines.contains("ENVIRONMENT_SHADOWS") ? kRaysPerDraw : kPointsPerDraw) / 2);
     for (int first = 0; first < pairs; first += each) {
         EnvironmentLight::setPairs(shader, first, std::min(pairs, first + each));
         resources().inputs.drawScreen(shader);

@@ -4,7 +4,8 @@
 
 namespace lobe {
 
-/// Adds the light of one type, or of the environment, to all surfaces: one program a model in use, masked by stencil.
+/// Adds the light of one type, or of the environment, to all surfaces: one program a model in use, masked by
+/// stencil.
 class LightPass : public Pass {
 public:
     LightPass(const PlannedPass& planned, FrameResources& resources, LightType type)

@@ -64,8 +64,8 @@ struct Renderer::State {
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights, bodies),
-              resources{*scene, plan,   programs, targets,    surfaces, lights,
-                        bodies, environment, inputs, rays, shadowMaps, {}} {
+              resources{*scene, plan,        programs, targets, surfaces,   lights,
+                        bodies, environment, inputs,   rays,    shadowMaps, {}} {
             for (const PlannedPass& planned : plan.passes) {
                 if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);

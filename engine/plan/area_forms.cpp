@@ -112,7 +112,8 @@ std::map<std::string, AreaForm> areaForms(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-        if (findBrdf(material.brdf) != nullptr) uses[material.brdf].push_back({&material, !primitive.colors.empty()});
+        if (findBrdf(material.brdf) != nullptr)
+            uses[material.brdf].push_back({&material, !primitive.colors.empty()});
     }
     std::map<std::string, AreaForm> forms;
     auto row = static_cast<int>(tableRows(scene.materials));

@@ -333,7 +333,8 @@ const std::vector<Knob>& knobTable() {
          .withoutEffect = withoutAirlight},
         {.name = "env_lighting",
          .title = "Environment",
-         .help = "its map integrated beforehand where a model's lobe can be split from it, or directions to it",
+         .help =
+             "its map integrated beforehand where a model's lobe can be split from it, or directions to it",
          .values = {"prefiltered", "sampled"},
          .range = {},
          .get = [](const Quality& q) -> std::string {
@@ -359,8 +360,9 @@ const std::vector<Knob>& knobTable() {
          .withoutEffect = withoutEnvironmentDiffuse},
         {.name = "env_samples",
          .title = "Environment samples",
-         .help = "directions to the environment where it is sampled, half by its brightness, half by the lobe",
-         .values = {"16", "64", "256"},
+         .help =
+             "directions to the environment where it is sampled, half by its brightness, half by the lobe",
+         .values = {"16", "32", "64", "256"},
          .range = {{2, 4096}},
          .get = [](const Quality& q) { return std::to_string(q.envSamples); },
          .set = [](Quality& q, const std::string& value) { q.envSamples = std::stoi(value); },

@@ -43,9 +43,8 @@ FramePlan Planner::plan() {
     plan_.textures = scene_.textures;
     plan_.reversedDepth = capabilities_.clipControl;
     deferred_ = plan_.quality.shading == Shading::deferred;
-    anyLight_ =
-        scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0 || !scene_.bodyLights.empty() ||
-        scene_.environment;
+    anyLight_ = scene_.directionalLights + scene_.pointLights + scene_.spotLights > 0 ||
+                !scene_.bodyLights.empty() || scene_.environment;
     unlit_ = std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(),
                          [](const BrdfFacts& f) { return f.name == kUnlit; });
     hasDeferredSurface_ = deferred_ && !scene_.brdfs.empty();

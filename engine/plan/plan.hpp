@@ -100,14 +100,14 @@ struct FramePlan {
     int globalPointLights = 0, globalSpotLights = 0;  ///< lights that reach every pixel, outside the clusters
     std::map<LightType, PlannedShadow> shadows;       ///< of each type that the scene has
     std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
-    int areaPoints = 0;            ///< on each light with a body, in each frame; 0: none are needed
-    int areaPointsForward = 0;     ///< the same, for surfaces of the forward pass
+    int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
+    int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
     std::map<std::string, PlannedEnvironment>
-        environmentMethods;              ///< by model, where the scene has an environment
-    int environmentSamples = 0;          ///< directions to it in each frame; 0: none are needed
-    int environmentSamplesForward = 0;   ///< the same, for surfaces of the forward pass
+        environmentMethods;             ///< by model, where the scene has an environment
+    int environmentSamples = 0;         ///< directions to it in each frame; 0: none are needed
+    int environmentSamplesForward = 0;  ///< the same, for surfaces of the forward pass
     PlannedShadow environmentShadow = PlannedShadow::none;
-    bool environmentMap = false;         ///< its picture itself is looked up, not only what is made of it
+    bool environmentMap = false;   ///< its picture itself is looked up, not only what is made of it
     bool rays = false;             ///< the scene's hierarchy of boxes is made for the rays of some program
     int airlightNodes = 0;         ///< of each lamp's airlight; 0: there is none
     int mostLayers = 0;            ///< of blended surfaces that are peeled; 0: they are sorted by object

@@ -80,9 +80,9 @@ void Planner::planNormal() {
     }
     if (!read && !wants(Aov::normal)) {
         leaveOut("channel", "normal",
-                 !anyLight_ ? "no light reads it"
+                 !anyLight_                                         ? "no light reads it"
                  : scene_.bodyLights.empty() && !scene_.environment ? "no opaque surface shows punctual light"
-                                             : "no opaque surface shows these lights");
+                                                                    : "no opaque surface shows these lights");
         return;
     }
     const int asked = plan_.quality.normalBits;

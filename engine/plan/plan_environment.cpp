@@ -37,9 +37,8 @@ PlannedEnvironment Planner::environmentMethod(const std::string& model) const {
     const AreaForm& form = found->second;
     const std::string diffuse = nameOf(plan_.quality.envDiffuse);
     if (form.request.brdf->area->terms == 0) return {EnvironmentMethod::prefiltered, "by " + diffuse, form};
-    const std::string range = form.request.widthVaries
-                                  ? ", for each " + form.request.brdf->area->width + " that is in use"
-                                  : "";
+    const std::string range =
+        form.request.widthVaries ? ", for each " + form.request.brdf->area->width + " that is in use" : "";
     return {EnvironmentMethod::prefiltered,
             "by the map blurred by its lobe" + range + ", and " + diffuse + " for Lambert's part", form};
 }
@@ -63,7 +62,8 @@ void Planner::planEnvironmentShadow() {
     if (!reason.empty()) return leaveOut("shadow", "environment", reason);
     requireRays();
     plan_.environmentShadow = PlannedShadow::rays;
-    plan_.notes.push_back("shadows of the environment: rays, one in each direction that is drawn or mirrored");
+    plan_.notes.push_back(
+        "shadows of the environment: rays, one in each direction that is drawn or mirrored");
 }
 
 void Planner::planEnvironment() {
@@ -77,8 +77,8 @@ void Planner::planEnvironment() {
     }
     const std::string size = std::to_string(scene_.environmentWidth) + " x " +
                              std::to_string(scene_.environmentHeight) + " texels";
-    plan_.lightGroups.push_back("environment: " +
-                                (scene_.environmentPicture ? size : std::string("constant")) + models);
+    plan_.lightGroups.push_back(
+        "environment: " + (scene_.environmentPicture ? size : std::string("constant")) + models);
     const int most = capabilities_.maxTextureSize;
     if (looked && (scene_.environmentWidth > most || scene_.environmentHeight + 2 > most))
         throw ContextError("the environment has " + size + "; expected at most " + std::to_string(most) +
@@ -94,9 +94,10 @@ void Planner::planEnvironment() {
         return;
     }
     plan_.environmentSamples = plan_.environmentSamplesForward = plan_.quality.envSamples;
-    plan_.notes.push_back("environment: " + plural(plan_.environmentSamples, "direction") +
-                          ", half drawn by its brightness, half by the lobe, weighed by the balance heuristic" +
-                          (plan_.samples > 1 ? "; others in each jittered frame" : ""));
+    plan_.notes.push_back(
+        "environment: " + plural(plan_.environmentSamples, "direction") +
+        ", half drawn by its brightness, half by the lobe, weighed by the balance heuristic" +
+        (plan_.samples > 1 ? "; others in each jittered frame" : ""));
     if (!scene_.blended && deferred_) return;
     const int each = plan_.environmentShadow == PlannedShadow::rays ? kRaysPerForwardDraw : kPointsPerDraw;
     if (plan_.environmentSamples <= each) return;
@@ -152,7 +153,11 @@ void Planner::planBackground() {
     const char* target = !contributions_ ? "radiance"
                          : deferred_     ? "contribution.environment"
                                          : "contribution.transparent";
-    PlannedPass pass{"background", "pass/background.frag", {{}}, {}, {target},
+    PlannedPass pass{"background",
+                     "pass/background.frag",
+                     {{}},
+                     {},
+                     {target},
                      scene_.environmentBlurred ? "the environment is seen behind surfaces, blurred"
                                                : "the environment is seen behind surfaces"};
     if (hasDeferredSurface_) pass.reads.emplace_back("depth");

@@ -11,8 +11,13 @@ const std::vector<std::string>& qualityPresetNames() {
 }
 
 Quality qualityPreset(const std::string& name) {
-    if (name == "draft") return {.samples = 1, .gbufferBits = 8, .textureBits = 8, .shadows = Shadows::none,
-                .envDiffuse = EnvironmentDiffuse::sh2, .envSamples = 16};
+    if (name == "draft")
+        return {.samples = 1,
+                .gbufferBits = 8,
+                .textureBits = 8,
+                .shadows = Shadows::none,
+                .envDiffuse = EnvironmentDiffuse::sh2,
+                .envSamples = 16};
     if (name == "balanced") return {};
     if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16};
     if (name == "converged")

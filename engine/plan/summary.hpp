@@ -79,10 +79,10 @@ struct SceneSummary {
     std::map<LightType, int> shadowLights;      ///< that cast shadows, of each type
     int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
-    bool environmentPicture = false;      ///< it is not the same from everywhere
-    bool environmentSeen = false;         ///< where no surface is
-    bool environmentBlurred = false;      ///< and then as another picture
-    bool environmentCastsShadow = false;  ///< surfaces block it
+    bool environmentPicture = false;                  ///< it is not the same from everywhere
+    bool environmentSeen = false;                     ///< where no surface is
+    bool environmentBlurred = false;                  ///< and then as another picture
+    bool environmentCastsShadow = false;              ///< surfaces block it
     int environmentWidth = 0, environmentHeight = 0;  ///< of its picture, texels
     /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,
     /// 1/sr, infinite where one has no bound, and then the model that has none.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <vector>
 #include <functional>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <vector>
 
 #include "base/error.hpp"
 #include "image/tone.hpp"
@@ -40,9 +40,11 @@ glm::dvec3 seen(const Face& face, int side, const glm::dvec3& d) {
     const double v = (1.0 - glm::dot(d, face.up) / depth) / 2.0 * side - 0.5;
     const int x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
     const auto at = [&](int i, int j) {
-        return texelOf(*face.bitmap, face.x + std::clamp(i, 0, side - 1), face.y + std::clamp(j, 0, side - 1));
+        return texelOf(*face.bitmap, face.x + std::clamp(i, 0, side - 1),
+                       face.y + std::clamp(j, 0, side - 1));
     };
-    return glm::mix(glm::mix(at(x, y), at(x + 1, y), u - x), glm::mix(at(x, y + 1), at(x + 1, y + 1), u - x), v - y);
+    return glm::mix(glm::mix(at(x, y), at(x + 1, y), u - x), glm::mix(at(x, y + 1), at(x + 1, y + 1), u - x),
+                    v - y);
 }
 
 Bitmap equirectangular(const std::array<Face, 6>& faces, int side) {
@@ -63,9 +65,10 @@ Bitmap equirectangular(const std::array<Face, 6>& faces, int side) {
                     const double theta = kPi * (y + (j + 0.5) / kSub) / result.height;
                     const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
                                        -std::sin(theta) * std::cos(phi));
-                    const auto face = std::max_element(faces.begin(), faces.end(), [&](const Face& a, const Face& b) {
-                        return glm::dot(a.forward, d) < glm::dot(b.forward, d);
-                    });
+                    const auto face =
+                        std::max_element(faces.begin(), faces.end(), [&](const Face& a, const Face& b) {
+                            return glm::dot(a.forward, d) < glm::dot(b.forward, d);
+                        });
                     sum += seen(*face, side, d);
                 }
             for (int c = 0; c < 3; ++c)
@@ -125,21 +128,21 @@ bool isCubeCross(const Bitmap& bitmap) {
 Bitmap fromCubeCross(const Bitmap& cross) {
     const bool lying = cross.width > cross.height;
     const int side = cross.width / (lying ? 4 : 3);
-    const auto at = [&](const glm::dvec3& forward, const glm::dvec3& right, const glm::dvec3& up, int x, int y) {
-        return Face{forward, right, up, &cross, x * side, y * side};
-    };
-    return equirectangular({at(kX, kZ, kY, 0, 1), at(-kX, -kZ, kY, 2, 1), at(kY, -kX, -kZ, 1, 0),
-                            at(-kY, -kX, kZ, 1, 2), at(kZ, -kX, kY, 1, 1),
-                            lying ? at(-kZ, kX, kY, 3, 1) : at(-kZ, -kX, -kY, 1, 3)},
-                           side);
+    const auto at = [&](const glm::dvec3& forward, const glm::dvec3& right, const glm::dvec3& up, int x,
+                        int y) { return Face{forward, right, up, &cross, x * side, y * side}; };
+    return equirectangular(
+        {at(kX, kZ, kY, 0, 1), at(-kX, -kZ, kY, 2, 1), at(kY, -kX, -kZ, 1, 0), at(-kY, -kX, kZ, 1, 2),
+         at(kZ, -kX, kY, 1, 1), lying ? at(-kZ, kX, kY, 3, 1) : at(-kZ, -kX, -kY, 1, 3)},
+        side);
 }
 
 Bitmap fromCubeFaces(const std::array<Bitmap, 6>& faces, const std::string& what) {
     const int side = faces[0].width;
     for (const Bitmap& face : faces)
         if (face.width != side || face.height != side)
-            throw InputError(what + ": faces of " + std::to_string(side) + " and " + std::to_string(face.width) + " x " +
-                             std::to_string(face.height) + "; expected six squares of one size");
+            throw InputError(what + ": faces of " + std::to_string(side) + " and " +
+                             std::to_string(face.width) + " x " + std::to_string(face.height) +
+                             "; expected six squares of one size");
     const auto at = [&](size_t i, const glm::dvec3& forward, const glm::dvec3& right, const glm::dvec3& up) {
         return Face{forward, right, up, &faces[i], 0, 0};
     };

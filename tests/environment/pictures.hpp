@@ -33,7 +33,8 @@ Bitmap directionPicture(int width, int height, Function f) {
     return floatPicture(width, height, [&](int x, int y) {
         constexpr double kPi = std::numbers::pi;
         const double phi = 2.0 * kPi * (x + 0.5) / width, theta = kPi * (y + 0.5) / height;
-        return f(glm::dvec3(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)));
+        return f(
+            glm::dvec3(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)));
     });
 }
 
@@ -45,8 +46,10 @@ inline EnvironmentMap mapOf(const Bitmap& bitmap) {
 
 /// A dim sky over a dark ground, and two lamps.
 inline glm::vec3 skyWithLamps(const glm::dvec3& d) {
-    const glm::dvec3 lamp = glm::normalize(glm::dvec3(0.6, 0.5, 0.7)), other = glm::normalize(glm::dvec3(-0.8, 0.2, 0.1));
-    glm::dvec3 light = d.y > 0.0 ? glm::dvec3(0.4, 0.5, 0.7) * (0.4 + 0.6 * d.y) : glm::dvec3(0.15, 0.12, 0.1);
+    const glm::dvec3 lamp = glm::normalize(glm::dvec3(0.6, 0.5, 0.7)),
+                     other = glm::normalize(glm::dvec3(-0.8, 0.2, 0.1));
+    glm::dvec3 light =
+        d.y > 0.0 ? glm::dvec3(0.4, 0.5, 0.7) * (0.4 + 0.6 * d.y) : glm::dvec3(0.15, 0.12, 0.1);
     if (glm::dot(d, lamp) > 0.97) light += glm::dvec3(9.0, 8.0, 6.0);
     if (glm::dot(d, other) > 0.95) light += glm::dvec3(2.0, 2.5, 4.0);
     return light;

@@ -40,7 +40,8 @@ glm::dvec3 blurredByGrid(const EnvironmentMap& map, const glm::dvec3& axis, cons
 
 ZonalKernel ggx(double alpha) {
     return ZonalKernel([=](double angle) {
-        const double half = angle / 2.0, c = std::cos(half), s = std::sin(half), q = s * s / (alpha * alpha) + c * c;
+        const double half = angle / 2.0, c = std::cos(half), s = std::sin(half),
+                     q = s * s / (alpha * alpha) + c * c;
         return angle < kPi / 2 ? std::cos(angle) / (q * q) : 0.0;
     });
 }
@@ -53,8 +54,8 @@ TEST(ZonalKernel, IntegratesToOneAndKnowsItsSpread) {
     EXPECT_NEAR(narrow.spread(), std::sqrt(2.0) * 1e-2, 1e-4);
 }
 
-/// Squares of a tree are points: the error is that of the sum, which is checked against a grid 4 times as fine as the
-/// kernel is wide.
+/// Squares of a tree are points: the error is that of the sum, which is checked against a grid 4 times as
+/// fine as the kernel is wide.
 TEST(RadianceTree, BlursAsASumOverTheSphere) {
     const Bitmap picture = directionPicture(256, 128, test::skyWithLamps);
     const EnvironmentMap map = mapOf(picture);
@@ -67,7 +68,8 @@ TEST(RadianceTree, BlursAsASumOverTheSphere) {
             const glm::dvec3 expected = blurredByGrid(map, axis, kernel);
             const glm::dvec3 got = tree.blurred(glm::vec3(axis), kernel);
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(got[c], expected[c], 0.02 * expected[c] + 0.005) << alpha << " " << axis.x << " " << axis.y;
+                EXPECT_NEAR(got[c], expected[c], 0.02 * expected[c] + 0.005)
+                    << alpha << " " << axis.x << " " << axis.y;
         }
     }
 }
@@ -85,9 +87,8 @@ TEST(RadianceTree, AConstantStays) {
 /// One texel of 1e6 in a black map, near a pole and at the seam: its power arrives, whatever the kernel.
 TEST(RadianceTree, KeepsThePowerOfOneTexel) {
     for (const auto& [tx, ty] : {std::pair(100, 40), std::pair(0, 31), std::pair(5, 1)}) {
-        const Bitmap picture = floatPicture(128, 64, [&](int x, int y) {
-            return glm::vec3(x == tx && y == ty ? 1e6F : 0.0F);
-        });
+        const Bitmap picture =
+            floatPicture(128, 64, [&](int x, int y) { return glm::vec3(x == tx && y == ty ? 1e6F : 0.0F); });
         const EnvironmentMap map = mapOf(picture);
         const RadianceTree tree(map);
         // Bilinear: by quadrature over the texels about it.
@@ -98,7 +99,8 @@ TEST(RadianceTree, KeepsThePowerOfOneTexel) {
                 const double phi = 2.0 * kPi * (tx + (i + 0.5) / kSub) / 128.0;
                 const double theta = kPi * (ty + (j + 0.5) / kSub) / 64.0;
                 if (theta < 0.0) continue;
-                const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+                const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
+                                   -std::sin(theta) * std::cos(phi));
                 power += map.relative(d).x * std::sin(theta) * 2.0 * kPi / 128.0 / kSub * kPi / 64.0 / kSub;
             }
         double got = 0.0;
@@ -111,7 +113,8 @@ TEST(RadianceTree, KeepsThePowerOfOneTexel) {
 
 TEST(Harmonics, OfALinearSkyAreExact) {
     // Radiance 1 + 0.8 d.y: irradiance / pi is 1 + 0.8 (2 / 3) n.y.
-    const Bitmap picture = directionPicture(256, 128, [](const glm::dvec3& d) { return glm::vec3(1.0 + 0.8 * d.y); });
+    const Bitmap picture =
+        directionPicture(256, 128, [](const glm::dvec3& d) { return glm::vec3(1.0 + 0.8 * d.y); });
     const RadianceTree tree(mapOf(picture));
     for (int order : {2, 4}) {
         const auto harmonics = irradianceHarmonics(tree, order);
@@ -125,7 +128,8 @@ TEST(Harmonics, OfALinearSkyAreExact) {
 
 /// A small sun alone makes the plain sum negative behind it.
 TEST(Harmonics, AreNowhereNegative) {
-    const Bitmap picture = floatPicture(64, 32, [](int x, int y) { return glm::vec3(x == 20 && y == 9 ? 1e6F : 0.0F); });
+    const Bitmap picture =
+        floatPicture(64, 32, [](int x, int y) { return glm::vec3(x == 20 && y == 9 ? 1e6F : 0.0F); });
     const RadianceTree tree(mapOf(picture));
     for (int order : {2, 4}) {
         const auto harmonics = irradianceHarmonics(tree, order);
@@ -133,7 +137,8 @@ TEST(Harmonics, AreNowhereNegative) {
         double mean = 0.0, most = 0.0;
         constexpr int kCount = 4000;
         for (int i = 0; i < kCount; ++i) {
-            const double value = irradianceAt(harmonics, uniformSphere({random.uniform(), random.uniform()})).x;
+            const double value =
+                irradianceAt(harmonics, uniformSphere({random.uniform(), random.uniform()})).x;
             EXPECT_GE(value, -2e-3 * tree.mean().x);
             mean += value / kCount;
             most = std::max(most, value);
@@ -158,7 +163,8 @@ TEST(SplitTable, AlbedoIsTheModels) {
             double sum = 0.0;
             constexpr int kCount = 40000;
             for (int i = 0; i < kCount; ++i) {
-                const glm::dvec3 wi = sampleDirection(mixture, random.uniform(), random.uniform(), random.uniform());
+                const glm::dvec3 wi =
+                    sampleDirection(mixture, random.uniform(), random.uniform(), random.uniform());
                 if (wi.z > 0.0) sum += brdf.fCos(Directions(wi, wo), values).x / samplingDensity(mixture, wi);
             }
             const SplitNode& node = nodes[static_cast<size_t>(n)];
@@ -222,7 +228,8 @@ TEST(Pictures, OfCubesShowTheirFacesWhereTheyBelong) {
         {plain(8, 1), plain(8, 2), plain(8, 3), plain(8, 4), plain(8, 5), plain(8, 6)}, "faces");
     // A cross whose squares hold column + 10 row.
     const auto cross = [](int columns, int rows) {
-        return floatPicture(columns * 8, rows * 8, [](int x, int y) { return glm::vec3(x / 8 + 10 * (y / 8)); });
+        return floatPicture(columns * 8, rows * 8,
+                            [](int x, int y) { return glm::vec3(x / 8 + 10 * (y / 8)); });
     };
     const glm::dvec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     const Bitmap lying = fromCubeCross(cross(4, 3)), standing = fromCubeCross(cross(3, 4));
@@ -236,12 +243,15 @@ TEST(Pictures, OfCubesShowTheirFacesWhereTheyBelong) {
 
 /// A smooth function of direction survives the way through each layout: no face is mirrored or turned.
 TEST(Pictures, OfCubesKeepOrientation) {
-    const auto f = [](const glm::dvec3& d) { return glm::vec3(1.0 + 0.5 * d.x, 1.0 + 0.5 * d.y, 1.0 + 0.5 * d.z); };
+    const auto f = [](const glm::dvec3& d) {
+        return glm::vec3(1.0 + 0.5 * d.x, 1.0 + 0.5 * d.y, 1.0 + 0.5 * d.z);
+    };
     // OpenGL's cube maps (specification 3.3, table 3.19): sc, tc and ma of each face.
     const auto face = [&](int index) {
         return floatPicture(32, 32, [&](int x, int y) {
             const double s = (x + 0.5) / 16.0 - 1.0, t = (y + 0.5) / 16.0 - 1.0;
-            const glm::dvec3 d[] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+            const glm::dvec3 d[] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t},
+                                    {s, -1, -t}, {s, -t, 1},  {-s, -t, -1}};
             return f(glm::normalize(d[index]));
         });
     };

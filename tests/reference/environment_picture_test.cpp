@@ -13,7 +13,7 @@
 namespace lobe::reference {
 namespace {
 
-constexpr int kWidth = 60, kHeight = 24;
+constexpr int kWidth = 30, kHeight = 16;
 
 struct Surface {
     const char* model;
@@ -95,8 +95,8 @@ std::pair<double, double> errorOf(const Image& image, const std::vector<glm::dve
 
 class EnvironmentPicture : public testing::TestWithParam<Surface> {};
 
-/// The bounds of `prefiltered` are those of the split sum with a dominant direction (docs/environment.md); sampling
-/// has none but its noise.
+/// The bounds of `prefiltered` are those of the split sum with a dominant direction (docs/environment.md);
+/// sampling has none but its noise.
 TEST_P(EnvironmentPicture, AgreesWithTheReference) {
     const Scene scene = ball(GetParam());
     const auto truths = truth(scene, 5e-3);
@@ -106,16 +106,19 @@ TEST_P(EnvironmentPicture, AgreesWithTheReference) {
     quality.envSamples = 512;
     quality.samples = 1;
     const auto [noise, sampledBias] = errorOf(drawn(scene, quality), truths);
-    std::printf("%s %.2f: prefiltered %.2f %%, bias %.2f %%; sampled %.2f %%, bias %.2f %%\n", GetParam().model,
-                GetParam().roughness, 100 * off, 100 * bias, 100 * noise, 100 * sampledBias);
+    std::printf("%s %.2f: prefiltered %.2f %%, bias %.2f %%; sampled %.2f %%, bias %.2f %%\n",
+                GetParam().model, GetParam().roughness, 100 * off, 100 * bias, 100 * noise,
+                100 * sampledBias);
     EXPECT_LT(off, 0.08);
     EXPECT_LT(noise, 0.03);
     EXPECT_LT(std::abs(sampledBias), 5e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EnvironmentPicture,
-                         testing::Values(Surface{"lambert", 1.0, 0.0}, Surface{"metallic_roughness", 0.2, 1.0},
-                                         Surface{"metallic_roughness", 0.5, 0.0}, Surface{"metallic_roughness", 1.0, 1.0},
+                         testing::Values(Surface{"lambert", 1.0, 0.0},
+                                         Surface{"metallic_roughness", 0.2, 1.0},
+                                         Surface{"metallic_roughness", 0.5, 0.0},
+                                         Surface{"metallic_roughness", 1.0, 1.0},
                                          Surface{"cook_torrance", 0.5, 1.0}, Surface{"ward", 0.4, 1.0},
                                          Surface{"phong", 0.5, 1.0}, Surface{"ashikhmin_shirley", 0.4, 1.0},
                                          Surface{"oren_nayar", 1.0, 0.0}, Surface{"he", 0.5, 1.0}));
@@ -129,8 +132,9 @@ TEST(EnvironmentPictures, MirrorAndBackgroundAreTheMapItself) {
 TEST(EnvironmentPictures, DiffuseByHarmonicsIsClose) {
     const Scene scene = ball({"lambert", 1.0, 0.0});
     const auto truths = truth(scene, 2e-3);
-    for (const auto& [diffuse, bound] : {std::pair(EnvironmentDiffuse::map, 2e-3), std::pair(EnvironmentDiffuse::sh4, 0.02),
-                                         std::pair(EnvironmentDiffuse::sh2, 0.05)}) {
+    for (const auto& [diffuse, bound] :
+         {std::pair(EnvironmentDiffuse::map, 2e-3), std::pair(EnvironmentDiffuse::sh4, 0.02),
+          std::pair(EnvironmentDiffuse::sh2, 0.05)}) {
         Quality quality = exact();
         quality.envDiffuse = diffuse;
         const auto [off, bias] = errorOf(drawn(scene, quality), truths);
@@ -149,7 +153,9 @@ TEST(EnvironmentPictures, ForwardShadesAsDeferredDoes) {
         const Image forward = drawn(scene, quality);
         size_t apart = 0;
         for (size_t i = 0; i < deferred.values.size(); ++i)
-            apart += std::abs(deferred.values[i] - forward.values[i]) > 2e-3F * deferred.values[i] + 1e-5F ? 1U : 0U;
+            apart += std::abs(deferred.values[i] - forward.values[i]) > 2e-3F * deferred.values[i] + 1e-5F
+                         ? 1U
+                         : 0U;
         EXPECT_LT(apart, deferred.values.size() / 50) << model;
     }
 }
@@ -160,14 +166,14 @@ TEST(EnvironmentPictures, WhiteFurnace) {
         Scene scene = ball({"ggx", roughness, 1.0});
         scene.images.clear();
         scene.environment->image = -1;
-        const auto truths = truth(scene, 1e-3);
+        const auto truths = truth(scene, 2e-3);
         Quality quality = exact();
         const auto [off, bias] = errorOf(drawn(scene, quality), truths);
         quality.envLighting = EnvironmentLighting::sampled;
         quality.envSamples = 1024;
         const auto [noise, sampledBias] = errorOf(drawn(scene, quality), truths);
-        std::printf("furnace, roughness %.2f: prefiltered %.3f %%, sampled %.3f %%, bias %.3f %%\n", roughness, 100 * off,
-                    100 * noise, 100 * sampledBias);
+        std::printf("furnace, roughness %.2f: prefiltered %.3f %%, sampled %.3f %%, bias %.3f %%\n",
+                    roughness, 100 * off, 100 * noise, 100 * sampledBias);
         EXPECT_LT(off, 5e-3);
         EXPECT_LT(std::abs(sampledBias), 5e-4);
     }
@@ -185,13 +191,17 @@ TEST(EnvironmentPictures, ExtremesStayFinite) {
                 if (x == 5) return glm::vec3(-1.0F);
                 return glm::vec3(x == 0 && y == 0 ? 1e6F : 0.0F);
             });
-            scene.environment->worldFromMap = glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(0.3, 0.9, 0.1)));
-            for (const EnvironmentLighting lighting : {EnvironmentLighting::prefiltered, EnvironmentLighting::sampled})
+            scene.environment->worldFromMap =
+                glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(0.3, 0.9, 0.1)));
+            for (const EnvironmentLighting lighting :
+                 {EnvironmentLighting::prefiltered, EnvironmentLighting::sampled})
                 for (const EnvironmentDiffuse diffuse :
                      {EnvironmentDiffuse::sh2, EnvironmentDiffuse::sh4, EnvironmentDiffuse::map}) {
                     Quality quality = exact();
                     quality.envLighting = lighting;
                     quality.envDiffuse = diffuse;
+                    if (lighting == EnvironmentLighting::sampled && diffuse != EnvironmentDiffuse::map)
+                        continue;
                     const Image image = drawn(scene, quality);
                     for (float value : image.values)
                         ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
