@@ -8,6 +8,9 @@
 namespace lobe {
 namespace {
 
+/// Beyond those that other inputs take, and that of the tables of models; combined units reach to 48.
+constexpr int kMapUnit = 28, kDirectionsUnit = 29, kLightUnit = 30;
+
 gl::Texture upload(int width, int height, const std::vector<float>& rgba, GLint filter) {
     gl::Texture texture = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture.id());
@@ -119,23 +122,23 @@ void EnvironmentLight::bindBackground(const gl::Program& program, int unit) cons
 
 int EnvironmentLight::bind(const gl::Program& program, int firstUnit, const std::string& model,
                            int samples) const {
-    int unit = bindMap(program, firstUnit, map_);
+    bindMap(program, kMapUnit, map_);
     program.set("uEnvMirrored", 1);
     if (directions_.texture && program.uniform("uEnvDirections") >= 0) {
-        glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        glActiveTexture(GL_TEXTURE0 + kDirectionsUnit);
         glBindTexture(GL_TEXTURE_BUFFER, directions_.texture.id());
-        program.set("uEnvDirections", unit++);
+        program.set("uEnvDirections", kDirectionsUnit);
         program.set("uEnvFrame", frame_);
         program.set("uEnvPairsAll", pairsOf(samples));
         setPairs(program, 0, pairsOf(samples));
     }
     const auto found = prefiltered_.find(model);
-    if (found == prefiltered_.end() || program.uniform("uEnvLight") < 0) return unit;
+    if (found == prefiltered_.end() || program.uniform("uEnvLight") < 0) return firstUnit;
     const environment::Prefiltered& layout = found->second.layout;
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glActiveTexture(GL_TEXTURE0 + kLightUnit);
     glBindTexture(GL_TEXTURE_2D, found->second.texture.id());
-    glBindSampler(static_cast<GLuint>(unit), 0);
-    program.set("uEnvLight", unit++);
+    glBindSampler(kLightUnit, 0);
+    program.set("uEnvLight", kLightUnit);
     program.set("uEnvFromWorld", mapFromWorld_);
     program.set("uEnvLightScale", scale_);
     program.set("uEnvTable", glm::vec3(layout.tableX, layout.tableY, layout.tableRows));
@@ -147,7 +150,7 @@ int EnvironmentLight::bind(const gl::Program& program, int firstUnit, const std:
         program.set("uEnvLayers[" + std::to_string(i) + "]", square(layout.layers[i]));
     for (size_t i = 0; i < harmonics_.size(); ++i)
         program.set("uEnvHarmonics[" + std::to_string(i) + "]", harmonics_[i]);
-    return unit;
+    return firstUnit;
 }
 
 }  // namespace lobe

@@ -21,8 +21,8 @@ public:
     /// `frame`: number of the jittered frame.
     void update(int frame) { frame_ = frame; }
 
-    /// Texture units from `firstUnit` on, and every uniform of pass/environment.glsl that the program, of one
-    /// model, uses. `samples`: directions in all. Returns the first free unit.
+    /// Texture units of its own, and every uniform of pass/environment.glsl that the program, of one model,
+    /// uses. `samples`: directions in all. Returns `firstUnit`, which stays free.
     int bind(const gl::Program& program, int firstUnit, const std::string& model, int samples) const;
     /// What is seen behind surfaces.
     void bindBackground(const gl::Program& program, int unit) const;
