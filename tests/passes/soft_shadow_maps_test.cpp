@@ -58,7 +58,9 @@ std::vector<double> drawn(const Scene& scene, const Light& light, const Setting&
     BodyLights bodies(lit, plan);
     ShadowMaps maps(lit, plan, lights, bodies);
     RayScene rays;
-    FrameResources resources{lit, plan, programs, targets, surfaces, lights, bodies, inputs, rays, maps, {}};
+    EnvironmentLight environment(lit, plan);
+    FrameResources resources{lit,    plan,        programs, targets, surfaces, lights,
+                             bodies, environment, inputs,   rays,    maps,     {}};
     ShadowMapPass pass(*plan.pass("shadow.maps"), resources);
     pass.prepare();
     if (capabilities.clipControl) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
