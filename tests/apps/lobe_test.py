@@ -103,9 +103,9 @@ class LobeTest(unittest.TestCase):
         path.write_text(content if isinstance(content, str) else json.dumps(content))
         return str(path)
 
-    def lobe(self, *arguments, expect=0, env=None, text=True):
+    def lobe(self, *arguments, expect=0, env=None, text=True, seconds=120):
         environment = dict(os.environ, XDG_CONFIG_HOME=str(self.folder / "config"), **(env or {}))
-        result = subprocess.run([LOBE, *map(str, arguments)], cwd=self.folder, capture_output=True, text=text, timeout=120,
+        result = subprocess.run([LOBE, *map(str, arguments)], cwd=self.folder, capture_output=True, text=text, timeout=seconds,
                                 env=environment)
         self.assertEqual(result.returncode, expect, f"{arguments}\n{result.stdout}\n{result.stderr}")
         if expect not in (0, 6) and text:

@@ -30,10 +30,11 @@ class Scenes(LobeTest):
             self.assertIn(f"| {vase['name']} |", table)
             self.assertIn(f"| {vase['extras']['source']} |", table)
 
+    # Some hundred programs, about a second each where none is in the driver's cache.
     def test_every_scene_is_finite_under_every_model_and_path(self):
         for options in ([], ["--brdf", "phong"], ["--brdf", "blinn_phong"], ["--brdf", "metallic_roughness"], ["--brdf", "lambert"],
                         ["--shading", "forward"], ["--quality", "converged", "--anti-aliasing", "none"]):
-            result = self.lobe("render", SCENES, *options, "-r", 160, 90, "-o", "{model}.exr", "--json", "-q")
+            result = self.lobe("render", SCENES, *options, "-r", 160, 90, "-o", "{model}.exr", "--json", "-q", seconds=600)
             shots = [json.loads(line) for line in result.stdout.splitlines()]
             self.assertEqual(len(shots), len(list(SCENES.rglob("*.gltf"))))
             for shot in shots:

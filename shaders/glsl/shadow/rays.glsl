@@ -237,7 +237,10 @@ float ray_visibility_through(vec3 position, vec3 geometric_normal, vec3 directio
 {
     bool front = dot(geometric_normal, direction) >= 0.0;
     float visible = front ? 1.0 : behind;
-    bool wanted = visible > 0.0 && distance > 0.0 && direction != vec3(0.0);
+    // Drivers that run neighbouring pixels together run those without a surface too, from infinity, where every box would be
+    // met.
+    bool there = all(lessThanEqual(abs(position), vec3(3e38)));
+    bool wanted = visible > 0.0 && distance > 0.0 && direction != vec3(0.0) && there;
     float away = uRayError.x + uRayError.y * length(position);
     vec3 origin = (position + uRayFrame.xyz) + (front ? away : -away) * geometric_normal;
     Ray ray = ray_make(origin * uRayFrame.w, direction, distance * uRayFrame.w);
