@@ -30,10 +30,9 @@ int run(const std::vector<std::string>& arguments) {
     static const std::map<std::string, Command> commands = {
         {"render", lobe::app::renderCommand},   {"reference", lobe::app::referenceCommand},
         {"compare", lobe::app::compareCommand}, {"explain", lobe::app::explainCommand},
-        {"plan", lobe::app::planCommand},
-        {"models", lobe::app::modelsCommand},   {"plot", lobe::app::plotCommand},
-        {"info", lobe::app::infoCommand},       {"report", lobe::app::reportCommand},
-        {"help", lobe::app::helpCommand}};
+        {"plan", lobe::app::planCommand},       {"models", lobe::app::modelsCommand},
+        {"plot", lobe::app::plotCommand},       {"info", lobe::app::infoCommand},
+        {"report", lobe::app::reportCommand},   {"help", lobe::app::helpCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");

@@ -292,7 +292,7 @@ PlotKind fitKind() {
 
 const std::vector<PlotKind>& plotKinds() {
     static const std::vector<PlotKind> kinds{lobesKind(),  tableKind(), fresnelKind(), albedoKind(),
-                                             lobe3dKind(), sliceKind(), errorKind(), fitKind()};
+                                             lobe3dKind(), sliceKind(), errorKind(),   fitKind()};
     return kinds;
 }
 

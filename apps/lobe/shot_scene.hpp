@@ -25,7 +25,8 @@ Camera cameraOf(const Scene& scene, const Settings& settings, int frame);
 
 RenderOptions renderOptionsOf(const Settings& settings);
 
-/// Whether the true picture has shadows: unless they are asked away by name. Presets of quality leave the truth as it is.
+/// Whether the true picture has shadows: unless they are asked away by name. Presets of quality leave the
+/// truth as it is.
 bool truthHasShadows(const Settings& settings);
 
 }  // namespace lobe::app

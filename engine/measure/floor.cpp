@@ -49,8 +49,8 @@ std::map<std::string, double> floorTimes(const FramePlan& plan, const gl::Contex
         const bool geometry = pass.name == "gbuffer";
         std::vector<std::string> colors = pass.writes;
         std::erase(colors, "depth");
-        // Shadow maps have a size of their own: passes that draw them have no floor here, those that read them the one
-        // without.
+        // Shadow maps have a size of their own: passes that draw them have no floor here, those that read
+        // them the one without.
         if (!std::ranges::all_of(colors, [&](const std::string& c) { return targets.has(c); })) continue;
         std::vector<std::string> reads = pass.reads;
         std::erase_if(reads, [&](const std::string& c) { return !targets.has(c); });

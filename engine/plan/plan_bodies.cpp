@@ -58,8 +58,9 @@ PlannedArea Planner::areaMethod(const std::string& model) const {
     if (form.terms == 0) return {AreaMethod::analytic, "in closed form", form};
     const std::string lobes = plural(static_cast<int>(fit::kLobes) * form.terms, "fitted lobe");
     return {AreaMethod::analytic,
-            "by " + lobes + (form.request.widthVaries ? ", over angle and " + form.request.brdf->area->width
-                                                      : ", over the angle of view"),
+            "by " + lobes +
+                (form.request.widthVaries ? ", over angle and " + form.request.brdf->area->width
+                                          : ", over the angle of view"),
             form};
 }
 
@@ -142,7 +143,8 @@ Planner::Defines Planner::bodyDefines(const std::string& model, LightType type) 
             if (form.request.brdf->area->powerTail) defines["LOBE_COSINES"] = "1";
             if (form.request.widthVaries) defines["LOBE_WIDTHS"] = "1";
             // Colours that do not vary are in the table.
-            defines["LOBE_WEIGHTS(w)"] = form.request.colorsVary ? "w.first, w.second" : "vec3(1.0), vec3(1.0)";
+            defines["LOBE_WEIGHTS(w)"] =
+                form.request.colorsVary ? "w.first, w.second" : "vec3(1.0), vec3(1.0)";
         }
     }
     if (area.method == AreaMethod::sampled || (shadowed && !maps && !hard)) defines["AREA_SAMPLED"] = "1";

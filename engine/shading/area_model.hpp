@@ -1,4 +1,5 @@
-/// What a model says of itself so that lights with a body can be integrated in closed form (fit/area_table.hpp).
+/// What a model says of itself so that lights with a body can be integrated in closed form
+/// (fit/area_table.hpp).
 #pragma once
 
 #include <array>
@@ -20,8 +21,8 @@ struct AreaWeights {
     std::array<glm::dvec3, 2> terms{glm::dvec3(0.0), glm::dvec3(0.0)};
 };
 
-/// The parts themselves at one pair of directions above the surface, with cos(theta_i) and at least 0. `base` is 1 for
-/// Lambert's own; where it varies, it varies slowly, and its mean over wi stands for it.
+/// The parts themselves at one pair of directions above the surface, with cos(theta_i) and at least 0. `base`
+/// is 1 for Lambert's own; where it varies, it varies slowly, and its mean over wi stands for it.
 struct AreaTerms {
     double base = 1.0;
     std::array<glm::dvec3, 2> terms{glm::dvec3(0.0), glm::dvec3(0.0)};

@@ -61,7 +61,8 @@ AreaModel microfacetArea(std::function<double(const Directions&, std::span<const
     area.parts = [lobe = std::move(lobe)](const Directions& d, std::span<const double> values) {
         const double value = lobe(d, values) * d.wi.z;
         if (!isSchlick(values))
-            return AreaTerms{1.0, {fresnelReflectance(values.last(kFresnelValues), d) * value, glm::dvec3(0.0)}};
+            return AreaTerms{1.0,
+                             {fresnelReflectance(values.last(kFresnelValues), d) * value, glm::dvec3(0.0)}};
         const double schlick = std::pow(oneMinusCosThetaD(d), 5.0);
         return AreaTerms{1.0, {glm::dvec3((1.0 - schlick) * value), glm::dvec3(schlick * value)}};
     };

@@ -30,8 +30,8 @@ SamplingLobes microfacetLobes(const glm::dvec3& wo, std::span<const double> valu
 ParameterValues microfacetFromMetallicRoughness(const MetallicRoughness& surface,
                                                 const std::vector<double>& lobe);
 
-/// Lambert's part k_d; terms of Schlick's F, (1 - S) lobe and S lobe with S = (1 - V.H)^5, or of the exact F, F lobe.
-/// `lobe` is D G / (4 cos cos) for directions above the surface.
+/// Lambert's part k_d; terms of Schlick's F, (1 - S) lobe and S lobe with S = (1 - V.H)^5, or of the exact F,
+/// F lobe. `lobe` is D G / (4 cos cos) for directions above the surface.
 AreaModel microfacetArea(std::function<double(const Directions&, std::span<const double>)> lobe);
 
 /// Whether any channel of k_s is above 0.

@@ -18,7 +18,8 @@ inline Camera frontCamera(double distance = 4.0) {
     return camera;
 }
 
-/// Without shadows where they are not asked for: their own tests do, and others need not wait for their programs.
+/// Without shadows where they are not asked for: their own tests do, and others need not wait for their
+/// programs.
 inline RenderOptions smallPicture(Quality quality = {.samples = 1, .gbufferBits = 32},
                                   AovSet aovs = {Aov::radiance}, Shadows shadows = Shadows::none) {
     RenderOptions options;

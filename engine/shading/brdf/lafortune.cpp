@@ -97,7 +97,8 @@ AreaModel area() {
             if (lobe.cx != lobe.cy) return "its lobes have two widths";
         // Two lobes of a fit stand for those about the mirrored direction, not also for one that goes back.
         for (const LafortuneLobe& lobe : lobesOf(values.subspan(4)))
-            if (lobe.cx.r > 0.0 || lobe.cx.g > 0.0 || lobe.cx.b > 0.0) return "a lobe of it turns back to the light";
+            if (lobe.cx.r > 0.0 || lobe.cx.g > 0.0 || lobe.cx.b > 0.0)
+                return "a lobe of it turns back to the light";
         return "";
     };
     return area;

@@ -156,7 +156,8 @@ Brdf measured() {
         return AreaWeights{glm::dvec3(0.0), {rgbAt(values, 0), glm::dvec3(0.0)}};
     };
     area.parts = [](const Directions& d, std::span<const double> values) {
-        return AreaTerms{1.0, {interpolated(values.subspan(kTableAt), anglesOf(d)) * d.wi.z, glm::dvec3(0.0)}};
+        return AreaTerms{1.0,
+                         {interpolated(values.subspan(kTableAt), anglesOf(d)) * d.wi.z, glm::dvec3(0.0)}};
     };
     brdf.area = std::move(area);
     brdf.ambient = [](std::span<const double> values) {

@@ -12,8 +12,8 @@ namespace {
 double lobe(const Directions& d, const shading::PhongValues& p) {
     const glm::dvec3 normal(0.0, 0.0, 1.0);
     const glm::dvec3 mirrored = 2.0 * d.wi.z * normal - d.wi;
-    const double power = shading::cosinePower(glm::dot(mirrored, d.wo),
-                                              glm::length(glm::cross(mirrored, d.wo)), p.shininess);
+    const double power =
+        shading::cosinePower(glm::dot(mirrored, d.wo), glm::length(glm::cross(mirrored, d.wo)), p.shininess);
     return p.energy ? (p.shininess + 2.0) / (2.0 * glm::pi<double>()) * power * d.wi.z : power;
 }
 
