@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/number_store.hpp"
 #include "environment/environment_map.hpp"
 #include "environment/radiance_tree.hpp"
 #include "fit/area_table.hpp"
@@ -49,19 +50,18 @@ Prefiltered prefiltered(const RadianceTree& tree, const Request& request);
 /// A hash of the map, the request and the version.
 std::string keyOf(const EnvironmentMap& map, const Request& request);
 
-/// Files of a folder, one a key. Files that are damaged, of another key or of another layout count as absent.
+/// Those that were made, kept between runs (base/number_store.hpp).
 class Cache {
 public:
     /// In $XDG_CACHE_HOME/lobe/environment, else ~/.cache/lobe/environment; without a home nothing is kept.
     Cache();
-    explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit Cache(std::filesystem::path folder) : store_(std::move(folder), ".env", kVersion) {}
     std::optional<Prefiltered> find(const std::string& key) const;
     /// Failing to keep it is no error: it is made again.
     void keep(const std::string& key, const Prefiltered& made) const;
 
 private:
-    std::filesystem::path fileOf(const std::string& key) const { return folder_ / (key + ".env"); }
-    std::filesystem::path folder_;
+    NumberStore store_;
 };
 
 }  // namespace lobe::environment

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/number_store.hpp"
 #include "fit/area_table.hpp"
 
 namespace lobe::fit {
@@ -13,12 +14,12 @@ namespace lobe::fit {
 /// the fits.
 std::string tableKey(const TableRequest& request);
 
-/// A folder of files, one a key. Files that are damaged, of another key or of another layout count as absent.
+/// Those of a folder (base/number_store.hpp).
 class TableCache {
 public:
     /// In $XDG_CACHE_HOME/lobe/fits, else ~/.cache/lobe/fits; without a home nothing is kept.
     TableCache();
-    explicit TableCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit TableCache(std::filesystem::path folder) : store_(std::move(folder), ".fit", kFitVersion) {}
 
     std::optional<AreaTable> find(const std::string& key) const;
     /// Failing to keep it is no error: it is fitted again.
@@ -29,8 +30,7 @@ public:
     std::vector<AreaTable> tables(const std::vector<TableRequest>& requests) const;
 
 private:
-    std::filesystem::path fileOf(const std::string& key) const { return folder_ / (key + ".fit"); }
-    std::filesystem::path folder_;
+    NumberStore store_;
 };
 
 }  // namespace lobe::fit

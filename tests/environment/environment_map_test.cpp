@@ -3,34 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
 #include "math/random.hpp"
 #include "math/sphere.hpp"
+#include "pictures.hpp"
 
 namespace lobe {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A float picture whose texels are f(x, y).
-template<class Function>
-Bitmap picture(int width, int height, Function f) {
-    Bitmap bitmap;
-    bitmap.width = width;
-    bitmap.height = height;
-    bitmap.channels = 3;
-    bitmap.type = ComponentType::f32;
-    std::vector<glm::vec3> texels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            texels.push_back(f(x, y));
-    bitmap.data.resize(texels.size() * sizeof(glm::vec3));
-    std::memcpy(bitmap.data.data(), texels.data(), bitmap.data.size());
-    return bitmap;
-}
+using test::floatPicture;
 
 Environment pictured() {
     Environment environment;
@@ -56,7 +41,7 @@ TEST(EnvironmentMap, ConstantIsTheSameEverywhere) {
 
 TEST(EnvironmentMap, DirectionsAreThoseOfTheFormat) {
     const int width = 16, height = 8;
-    const Bitmap bitmap = picture(width, height, [](int x, int y) { return glm::vec3(x, y, 1); });
+    const Bitmap bitmap = floatPicture(width, height, [](int x, int y) { return glm::vec3(x, y, 1); });
     const EnvironmentMap map(pictured(), &bitmap);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -72,7 +57,7 @@ TEST(EnvironmentMap, DirectionsAreThoseOfTheFormat) {
 
 TEST(EnvironmentMap, RotationTurnsIt) {
     const int width = 16, height = 8;
-    const Bitmap bitmap = picture(width, height, [](int x, int y) { return glm::vec3(x, y, 1); });
+    const Bitmap bitmap = floatPicture(width, height, [](int x, int y) { return glm::vec3(x, y, 1); });
     Environment turned = pictured();
     turned.worldFromMap = glm::dmat3(0, 0, -1, 0, 1, 0, 1, 0, 0);  // +X of the map lies along -Z
     const EnvironmentMap map(pictured(), &bitmap), other(turned, &bitmap);
@@ -87,7 +72,7 @@ TEST(EnvironmentMap, IsContinuousOverSeamAndPoles) {
     const int width = 32, height = 16;
     Pcg32 noise(5);
     const Bitmap bitmap =
-        picture(width, height, [&](int, int) { return glm::vec3(static_cast<float>(noise.uniform())); });
+        floatPicture(width, height, [&](int, int) { return glm::vec3(static_cast<float>(noise.uniform())); });
     const EnvironmentMap map(pictured(), &bitmap);
     const double step = 1e-7;  // times the steepest slope, a texel, of at most 1: width / (2 pi sin(polar))
     for (int i = 0; i < 64; ++i) {
@@ -103,7 +88,7 @@ TEST(EnvironmentMap, IsContinuousOverSeamAndPoles) {
 
 TEST(EnvironmentMap, DrawsHaveTheirDensity) {
     const int width = 24, height = 12;
-    const Bitmap bitmap = picture(width, height, [](int x, int y) {
+    const Bitmap bitmap = floatPicture(width, height, [](int x, int y) {
         return glm::vec3(x == 5 && y == 3 ? 1000.0F : 0.1F + 0.05F * static_cast<float>(y));
     });
     const EnvironmentMap map(pictured(), &bitmap);
@@ -140,7 +125,7 @@ TEST(EnvironmentMap, DrawsHaveTheirDensity) {
 TEST(EnvironmentMap, BadTexelsAreCountedAndBlack) {
     const float infinity = std::numeric_limits<float>::infinity(),
                 nan = std::numeric_limits<float>::quiet_NaN();
-    const Bitmap bitmap = picture(4, 2, [&](int x, int y) {
+    const Bitmap bitmap = floatPicture(4, 2, [&](int x, int y) {
         const float values[] = {1.0F, -1.0F, infinity, nan};
         return glm::vec3(y == 0 ? values[x] : 2.0F);
     });
@@ -157,7 +142,7 @@ TEST(EnvironmentMap, BadTexelsAreCountedAndBlack) {
 
 TEST(EnvironmentMap, OneTexelAndBlack) {
     for (const float value : {0.0F, 3.0F}) {
-        const Bitmap bitmap = picture(1, 1, [&](int, int) { return glm::vec3(value); });
+        const Bitmap bitmap = floatPicture(1, 1, [&](int, int) { return glm::vec3(value); });
         const EnvironmentMap map(pictured(), &bitmap);
         EXPECT_DOUBLE_EQ(map.radiance({0, 1, 0}).x, double{value});
         EXPECT_NEAR(map.density(map.draw(0.3, 0.9)), 1.0 / (4.0 * kPi), 1e-12);

@@ -31,17 +31,8 @@ Scene underBody(LightType type, const std::string& brdf = "lambert") {
     return scene;
 }
 
-std::set<std::string> defines(const FramePlan& plan) {
-    std::set<std::string> all;
-    for (const PlannedPass& pass : plan.passes)
-        for (const Variant& variant : pass.variants)
-            for (const auto& [key, value] : variant.defines)
-                all.insert(key);
-    return all;
-}
-
 /// Of the one light pass that there is.
-std::map<std::string, std::string> definesOf(const FramePlan& plan) {
+std::map<std::string, std::string> lightDefinesOf(const FramePlan& plan) {
     std::map<std::string, std::string> all;
     for (const PlannedPass& pass : plan.passes)
         for (const Variant& variant : pass.variants)
@@ -62,7 +53,7 @@ TEST(BodyLightPlan, AbsentWithoutThem) {
         EXPECT_EQ(plan.channel(std::string("contribution.") + nameOf(type)), nullptr);
     }
     EXPECT_EQ(plan.areaPoints, 0);
-    for (const std::string& key : defines(plan))
+    for (const std::string& key : test::definesOf(plan))
         EXPECT_THAT(key, testing::Not(testing::StartsWith("AREA_"))) << key;
 }
 
@@ -85,16 +76,16 @@ TEST(BodyLightPlan, ClosedFormWhereThereIsOne) {
     quality.shadows = Shadows::none;
     const FramePlan lambert = planOf(underBody(LightType::disk), quality);
     EXPECT_EQ(lambert.areaMethods.at("lambert").method, AreaMethod::analytic);
-    EXPECT_TRUE(defines(lambert).contains("AREA_ANALYTIC"));
-    EXPECT_FALSE(defines(lambert).contains("AREA_SAMPLED"));
+    EXPECT_TRUE(test::definesOf(lambert).contains("AREA_ANALYTIC"));
+    EXPECT_FALSE(test::definesOf(lambert).contains("AREA_SAMPLED"));
     EXPECT_EQ(lambert.areaPoints, 0);
     EXPECT_EQ(reasonFor(lambert, "points on lights"), "closed forms need none, and no shadow is soft");
-    EXPECT_EQ(definesOf(lambert).at("LOBE_COUNT"), "0");
+    EXPECT_EQ(lightDefinesOf(lambert).at("LOBE_COUNT"), "0");
     const FramePlan he = planOf(underBody(LightType::disk, "he"), quality);
     EXPECT_EQ(he.areaMethods.at("he").method, AreaMethod::sampled);
     EXPECT_EQ(he.areaMethods.at("he").reason, "by points on each: no fit serves its lobe");
-    EXPECT_FALSE(defines(he).contains("AREA_ANALYTIC"));
-    EXPECT_TRUE(defines(he).contains("AREA_SAMPLED"));
+    EXPECT_FALSE(test::definesOf(he).contains("AREA_ANALYTIC"));
+    EXPECT_TRUE(test::definesOf(he).contains("AREA_SAMPLED"));
     EXPECT_EQ(he.areaPoints, quality.lightSamples);
     quality.areaLights = AreaLights::sampled;
     EXPECT_EQ(planOf(underBody(LightType::disk), quality).areaMethods.at("lambert").method,
@@ -107,10 +98,11 @@ TEST(BodyLightPlan, FitsTakeWhatTheMaterialsLeaveOpen) {
     Scene scene = underBody(LightType::rect, "phong");
     const FramePlan plain = planOf(scene, quality);
     EXPECT_EQ(plain.areaMethods.at("phong").method, AreaMethod::analytic);
-    EXPECT_EQ(definesOf(plain).at("LOBE_COUNT"), "2");
-    EXPECT_EQ(definesOf(plain).at("LOBE_WEIGHTS(w)"), "vec3(1.0), vec3(1.0)") << "colours are in the table";
-    EXPECT_FALSE(defines(plain).contains("LOBE_WIDTHS"));
-    EXPECT_FALSE(defines(plain).contains("AREA_SAMPLED"));
+    EXPECT_EQ(lightDefinesOf(plain).at("LOBE_COUNT"), "2");
+    EXPECT_EQ(lightDefinesOf(plain).at("LOBE_WEIGHTS(w)"), "vec3(1.0), vec3(1.0)")
+        << "colours are in the table";
+    EXPECT_FALSE(test::definesOf(plain).contains("LOBE_WIDTHS"));
+    EXPECT_FALSE(test::definesOf(plain).contains("AREA_SAMPLED"));
     EXPECT_EQ(plain.areaPoints, 0);
 
     // A second material of another colour, then of another width, then of another form.
@@ -126,10 +118,10 @@ TEST(BodyLightPlan, FitsTakeWhatTheMaterialsLeaveOpen) {
     };
     valueAt("specular") = 0.125;
     const FramePlan colours = planOf(scene, quality);
-    EXPECT_EQ(definesOf(colours).at("LOBE_WEIGHTS(w)"), "w.first, w.second");
-    EXPECT_FALSE(defines(colours).contains("LOBE_WIDTHS"));
+    EXPECT_EQ(lightDefinesOf(colours).at("LOBE_WEIGHTS(w)"), "w.first, w.second");
+    EXPECT_FALSE(test::definesOf(colours).contains("LOBE_WIDTHS"));
     valueAt("shininess") = 5.0;
-    EXPECT_TRUE(defines(planOf(scene, quality)).contains("LOBE_WIDTHS"));
+    EXPECT_TRUE(test::definesOf(planOf(scene, quality)).contains("LOBE_WIDTHS"));
     valueAt("normalization") = 1.0 - valueAt("normalization");
     const FramePlan forms = planOf(scene, quality);
     EXPECT_EQ(forms.areaMethods.at("phong").method, AreaMethod::sampled);
@@ -144,21 +136,22 @@ TEST(BodyLightPlan, RaysOnlyForShadows) {
     EXPECT_FALSE(none.rays);
     EXPECT_EQ(none.channel("geometric_normal"), nullptr);
     for (const char* key : {"SHADOWS", "AREA_SHADOWS", "AREA_HARD_SHADOWS", "RAY_ALPHA"})
-        EXPECT_FALSE(defines(none).contains(key)) << key;
+        EXPECT_FALSE(test::definesOf(none).contains(key)) << key;
     quality.shadows = Shadows::hard;
     const FramePlan hard = planOf(scene, quality);
     EXPECT_TRUE(hard.rays);
-    EXPECT_TRUE(defines(hard).contains("AREA_HARD_SHADOWS"));
-    EXPECT_FALSE(defines(hard).contains("AREA_SAMPLED")) << "one ray to the centre";
+    EXPECT_TRUE(test::definesOf(hard).contains("AREA_HARD_SHADOWS"));
+    EXPECT_FALSE(test::definesOf(hard).contains("AREA_SAMPLED")) << "one ray to the centre";
     quality.shadows = Shadows::soft;
     const FramePlan soft = planOf(scene, quality);
-    EXPECT_TRUE(defines(soft).contains("AREA_SHADOWS"));
-    EXPECT_TRUE(defines(soft).contains("AREA_ANALYTIC")) << "only the share that arrives is sampled";
-    EXPECT_TRUE(defines(soft).contains("AREA_SAMPLED"));
-    EXPECT_FALSE(defines(soft).contains("RAY_ALPHA"));
-    EXPECT_FALSE(defines(soft).contains("AREA_SPLIT"));
+    EXPECT_TRUE(test::definesOf(soft).contains("AREA_SHADOWS"));
+    EXPECT_TRUE(test::definesOf(soft).contains("AREA_ANALYTIC")) << "only the share that arrives is sampled";
+    EXPECT_TRUE(test::definesOf(soft).contains("AREA_SAMPLED"));
+    EXPECT_FALSE(test::definesOf(soft).contains("RAY_ALPHA"));
+    EXPECT_FALSE(test::definesOf(soft).contains("AREA_SPLIT"));
     quality.lightSamples = 256;
-    EXPECT_TRUE(defines(planOf(scene, quality)).contains("AREA_SPLIT")) << "more rays than one draw may have";
+    EXPECT_TRUE(test::definesOf(planOf(scene, quality)).contains("AREA_SPLIT"))
+        << "more rays than one draw may have";
     scene.lights[0].castsShadow = false;
     const FramePlan cast = planOf(scene, quality);
     EXPECT_FALSE(cast.rays);

@@ -8,6 +8,7 @@
 namespace lobe {
 namespace {
 
+using test::definesOf;
 using test::planOf;
 using test::reasonFor;
 using testing::HasSubstr;
@@ -22,15 +23,6 @@ Scene surrounded(const std::string& brdf) {
     Scene scene = quad(brdf);
     scene.environment = Environment{};
     return scene;
-}
-
-std::set<std::string> definesOf(const FramePlan& plan) {
-    std::set<std::string> all;
-    for (const PlannedPass& pass : plan.passes)
-        for (const Variant& variant : pass.variants)
-            for (const auto& [key, value] : variant.defines)
-                all.insert(key);
-    return all;
 }
 
 TEST(EnvironmentPlan, AbsentWithoutOne) {

@@ -1,6 +1,7 @@
 /// What tests of the plan share.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "plan/plan.hpp"
@@ -28,6 +29,16 @@ inline std::string reasonFor(const FramePlan& plan, const std::string& name) {
     for (const LeftOut& leftOut : plan.leftOut)
         if (leftOut.name == name) return leftOut.reason;
     return {};
+}
+
+/// Defines of all programs of the plan.
+inline std::set<std::string> definesOf(const FramePlan& plan) {
+    std::set<std::string> all;
+    for (const PlannedPass& pass : plan.passes)
+        for (const Variant& variant : pass.variants)
+            for (const auto& [key, value] : variant.defines)
+                all.insert(key);
+    return all;
 }
 
 }  // namespace lobe::test
