@@ -22,6 +22,16 @@ struct ThreadTeam::State {
     std::exception_ptr failure;
     std::vector<std::jthread> threads;
 
+    /// Also when a thread could not be started: those before it wait.
+    ~State() {
+        {
+            const std::lock_guard lock(mutex);
+            ending = true;
+        }
+        begun.notify_all();
+        threads.clear();
+    }
+
     void share() {
         for (size_t i = next++; i < count; i = next++) {
             try {
@@ -55,14 +65,7 @@ ThreadTeam::ThreadTeam(unsigned threads) : state_(std::make_unique<State>()) {
         state_->threads.emplace_back([state = state_.get()] { state->work(); });
 }
 
-ThreadTeam::~ThreadTeam() {
-    {
-        const std::lock_guard lock(state_->mutex);
-        state_->ending = true;
-    }
-    state_->begun.notify_all();
-    state_->threads.clear();
-}
+ThreadTeam::~ThreadTeam() = default;
 
 void ThreadTeam::each(size_t count, const std::function<void(size_t)>& job) {
     State& state = *state_;

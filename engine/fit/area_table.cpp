@@ -185,6 +185,18 @@ TableRequest normalised(TableRequest request) {
     return request;
 }
 
+bool huesDiffer(const Brdf& brdf, std::span<const double> values) {
+    if (!brdf.area || brdf.area->terms < 2) return false;
+    constexpr double kAlike = 0.02;  // of the fits' own errors
+    const auto [first, second] = brdf.area->weights(values).terms;
+    for (int c = 0; c < 3; ++c) {
+        const int d = (c + 1) % 3;
+        const double one = first[c] * second[d], other = first[d] * second[c];
+        if (std::abs(one - other) > kAlike * std::max(one, other)) return true;
+    }
+    return false;
+}
+
 int tableTexels(const TableRequest& request) {
     const int terms = request.brdf->area->terms;
     AreaTable table;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@
 namespace lobe::fit {
 
 /// Changes whenever the same values would be fitted otherwise: part of the key under which tables are kept.
-inline constexpr int kFitVersion = 2;
+inline constexpr int kFitVersion = 3;
 
 /// What a table is made for.
 struct TableRequest {
@@ -30,6 +31,10 @@ struct TableRequest {
 /// The request with what varies, and so is not in the table, at the model's defaults: alike for all materials
 /// that one table serves.
 TableRequest normalised(TableRequest request);
+
+/// Whether the weights of a model's two terms differ in hue: lobes that stand for both in the mean of the
+/// colours are then wrong in each, and one fit a term is made (`colorsVary`).
+bool huesDiffer(const Brdf& brdf, std::span<const double> values);
 
 /// Texels of its table.
 int tableTexels(const TableRequest& request);

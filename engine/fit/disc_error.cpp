@@ -25,7 +25,8 @@ DiscError discError(const TableRequest& request, const AreaTable& table, double 
         for (size_t i = 0; i < point.lobes.size(); ++i)
             point.lobes[i].weight *= weights.terms[i / kLobes];
 
-    std::vector<double> light, error, upTo;
+    std::vector<glm::dvec3> light, error;
+    std::vector<double> upTo;
     double total = 0.0;
     for (const TermSample& s : samples) {
         glm::dvec3 exact(0.0), fitted(0.0);
@@ -33,15 +34,14 @@ DiscError discError(const TableRequest& request, const AreaTable& table, double 
             exact += weights.terms[t] * s.terms.terms[t];
         for (const TableLobe& lobe : point.lobes)
             fitted += lobe.weight * lobe.lobe.density(s.w);
-        const glm::dvec3 mean(1.0 / 3.0);
-        light.push_back(glm::dot(exact, mean) / s.density);
-        error.push_back(glm::dot(fitted - exact, mean) / s.density);
-        upTo.push_back(total += light.back());
+        light.push_back(exact / s.density);
+        error.push_back((fitted - exact) / s.density);
+        upTo.push_back(total += light.back().r + light.back().g + light.back().b);
     }
     if (!(total > 0.0)) return {};
     Pcg32 random(options.seed);
     const glm::dmat3 toView = glm::transpose(view.frame);
-    double sumError = 0.0, sumLight = 0.0, worst = 0.0;
+    glm::dvec3 sumError(0.0), sumLight(0.0), worst(0.0);
     for (int disc = 0; disc < options.discs; ++disc) {
         glm::dvec3 centre = toView * uniformHemisphere({random.uniform(), random.uniform()});
         if (disc % 2 == 0) {
@@ -49,18 +49,23 @@ DiscError discError(const TableRequest& request, const AreaTable& table, double 
             centre = samples[std::min(static_cast<size_t>(found - upTo.begin()), samples.size() - 1)].w;
         }
         const double cosine = std::cos(glm::radians(random.uniform(options.smallest, options.largest)));
-        double lightOfDisc = 0.0, errorOfDisc = 0.0;
+        glm::dvec3 lightOfDisc(0.0), errorOfDisc(0.0);
         for (size_t i = 0; i < samples.size(); ++i) {
             if (glm::dot(samples[i].w, centre) < cosine) continue;
             lightOfDisc += light[i];
             errorOfDisc += error[i];
         }
         sumLight += lightOfDisc;
-        sumError += std::abs(errorOfDisc);
-        worst = std::max(worst, std::abs(errorOfDisc));
+        sumError += glm::abs(errorOfDisc);
+        worst = glm::max(worst, glm::abs(errorOfDisc));
     }
-    if (!(sumLight > 0.0)) return {};
-    return {sumError / sumLight, worst * options.discs / sumLight};
+    DiscError result;
+    for (int c = 0; c < 3; ++c) {
+        if (!(sumLight[c] > 0.0)) continue;
+        result.mean = std::max(result.mean, sumError[c] / sumLight[c]);
+        result.worst = std::max(result.worst, worst[c] * options.discs / sumLight[c]);
+    }
+    return result;
 }
 
 }  // namespace lobe::fit

@@ -6,7 +6,8 @@
 
 namespace lobe::fit {
 
-/// Shares of the mean that the model reflects from such discs at this angle of view.
+/// Shares of the mean that the model reflects from such discs at this angle of view, of the colour of red,
+/// green and blue that is the farthest off.
 struct DiscError {
     double mean = 0.0;   ///< mean of the absolute differences
     double worst = 0.0;  ///< largest of them

@@ -50,8 +50,12 @@ std::vector<Weights> weightsFor(const Shapes& shapes, const Weights& ofMean,
     }
     const double det = aa * bb - ab * ab;
     const bool apart = det > 1e-3 * aa * bb;
+    // `ofMean` may be in any unit: what is above the horizon says in which.
+    const double aboveOfMean = ofMean[0] * aboveA + ofMean[1] * aboveB;
+    if (!(aboveOfMean > 0.0)) return result;
     for (size_t c = 0; c < colors.size(); ++c) {
-        Weights weights{ofMean[0] * albedo[c] / mean, ofMean[1] * albedo[c] / mean};
+        const double share = albedo[c] / aboveOfMean;
+        Weights weights{ofMean[0] * share, ofMean[1] * share};
         if (apart) {
             weights[0] = std::max(weights[0] + (af[c] * bb - bf[c] * ab) / det, 0.0);
             weights[1] = std::max(weights[1] + (bf[c] * aa - af[c] * ab) / det, 0.0);

@@ -31,9 +31,9 @@ TransformedLobe lobeOf(const LobeShape5& shape);
 /// Weights of one colour.
 using Weights = std::array<double, kLobes>;
 
-/// Weights for each of several colours, whose values at the samples are given: `ofMean` for the mean of the
-/// colours, that the samples hold; for the others by least squares of what they differ by from their share of
-/// it. At least 0, and scaled so that what lies above the horizon is the albedo of the colour.
+/// Weights for each of several colours, whose values at the samples are given: `ofMean`, in any unit, for the
+/// mean of the colours, that the samples hold; for the others by least squares of what they differ by from
+/// their share of it. At least 0, and scaled so that what lies above the horizon is the albedo of the colour.
 std::vector<Weights> weightsFor(const Shapes& shapes, const Weights& ofMean,
                                 const std::vector<LobeSample>& samples,
                                 const std::vector<std::vector<double>>& colors);

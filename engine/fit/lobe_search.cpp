@@ -139,7 +139,7 @@ void addProducts(const Rows& rows, Products& products) {
         }
 }
 
-const double kLogHighest = std::log(kHighestPower);
+const double kLogLowest = std::log(kLowestPower), kLogHighest = std::log(kHighestPower);
 /// Of weights over the albedo: none, and a lobe that is below the horizon but for a sixth.
 const double kLeastLogWeight = std::log(1e-6), kMostLogWeight = std::log(6.0);
 
@@ -197,20 +197,6 @@ SearchSamples::SearchSamples(const std::vector<LobeSample>& samples, size_t draw
     }
 }
 
-std::optional<double> costAt(const Numbers& numbers, const SearchSamples& samples, bool cosines) {
-    if (isFolded(numbers)) return {};
-    double cost = 0.0;
-    for (Eigen::Index first = 0; first < samples.x.size(); first += kChunk) {
-        const Chunk chunk(samples, first);
-        Floats residual = -chunk.value;
-        for (int o = 0; o < kAllNumbers; o += kLobeNumbers)
-            residual += Densities(Lobe(numbers, o), chunk, cosines).density;
-        cost += static_cast<double>((residual * chunk.factor).square().sum());
-    }
-    if (!std::isfinite(cost)) return {};
-    return cost;
-}
-
 std::optional<Slope> slopeAt(const Numbers& numbers, const SearchSamples& samples, bool cosines) {
     if (isFolded(numbers)) return {};
     Rows rows;
@@ -240,7 +226,7 @@ Curvature freedom(const Numbers& at, const Numbers& gradient, const FitOptions& 
     for (int o = 0; o < kAllNumbers; o += kLobeNumbers) {
         const double power = at[o + kPowerAt], weight = at[o + kWeightAt];
         const double byPower = gradient[o + kPowerAt], byWeight = gradient[o + kWeightAt];
-        if (options.cosines || (power <= 0.0 && byPower > 0.0) || (power >= kLogHighest && byPower < 0.0))
+        if (options.cosines || (power <= kLogLowest && byPower > 0.0) || (power >= kLogHighest && byPower < 0.0))
             free(o + kPowerAt, o + kPowerAt) = 0.0;
         if ((weight <= kLeastLogWeight && byWeight > 0.0) || (weight >= kMostLogWeight && byWeight < 0.0))
             free(o + kWeightAt, o + kWeightAt) = 0.0;
@@ -256,7 +242,7 @@ Numbers stepped(const Numbers& from, const Numbers& step) {
     constexpr double kLongest = 1.0;
     Numbers to = from + step.cwiseMax(-kLongest).cwiseMin(kLongest);
     for (int o = 0; o < kAllNumbers; o += kLobeNumbers) {
-        to[o + kPowerAt] = std::clamp(to[o + kPowerAt], 0.0, kLogHighest);
+        to[o + kPowerAt] = std::clamp(to[o + kPowerAt], kLogLowest, kLogHighest);
         to[o + kWeightAt] = std::clamp(to[o + kWeightAt], kLeastLogWeight, kMostLogWeight);
     }
     return to;

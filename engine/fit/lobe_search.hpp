@@ -48,7 +48,6 @@ struct Slope {
 /// The mean square of the error in units of the mean density of samples and lobe, and of the albedo: an error
 /// of the light of the whole sky is at most its root. Nothing where a lobe is folded over. `cosines`: k is 1
 /// in all.
-std::optional<double> costAt(const Numbers& numbers, const SearchSamples& samples, bool cosines);
 std::optional<Slope> slopeAt(const Numbers& numbers, const SearchSamples& samples, bool cosines);
 
 struct FitOptions {
@@ -66,7 +65,7 @@ Numbers stepped(const Numbers& from, const Numbers& step);
 
 struct LobeFit {
     Numbers numbers;
-    double cost = 0.0;  ///< as costAt
+    double cost = 0.0;  ///< as Slope's
 };
 
 /// The fit nearest to `start` of least squared error, by Levenberg and Marquardt's search.

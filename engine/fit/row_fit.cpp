@@ -38,7 +38,7 @@ public:
         : samples_(samples), cosines_(cosines), team_(team) {}
 
     RowFit improved(std::vector<Numbers> nodes) {
-        RowFit fit{std::move(nodes), HUGE_VAL, HUGE_VAL};
+        RowFit fit{std::move(nodes), HUGE_VAL};
         if (!evaluate(fit.nodes)) return fit;
         double objective = objective_;
         const auto accept = [&] {
@@ -63,14 +63,12 @@ public:
         }
         evaluate(fit.nodes);
         double sum = 0.0, total = 0.0;
-        fit.worst = 0.0;
         for (size_t p = 0; p < slopes_.size(); ++p) {
-            const double cost = samples_.importance[p] * slopes_[p].cost;
-            sum += cost;
+            if (!counts(p)) continue;
+            sum += samples_.importance[p] * slopes_[p].cost;
             total += samples_.importance[p];
-            fit.worst = std::max(fit.worst, cost);
         }
-        fit.cost = sum / total;
+        fit.cost = total > 0.0 ? sum / total : 0.0;
         return fit;
     }
 
@@ -233,7 +231,8 @@ std::vector<Numbers> rescaled(std::vector<Numbers> nodes, const RowSamples& from
 
 RowFit fitRowLike(const RowFit& other, const RowSamples& ofOther, const RowSamples& samples, bool cosines,
                   ThreadTeam& team) {
-    return RowSearch(samples, cosines, team).improved(rescaled(other.nodes, ofOther, samples));
+    RowFit fit = RowSearch(samples, cosines, team).improved(rescaled(other.nodes, ofOther, samples));
+    return std::isfinite(fit.cost) ? fit : fitRow(samples, cosines, team);
 }
 
 RowFit fitRow(const RowSamples& samples, bool cosines, ThreadTeam& team) {

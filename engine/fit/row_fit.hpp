@@ -2,7 +2,6 @@
 /// between them fits as well as they do.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "base/thread_team.hpp"
@@ -22,14 +21,15 @@ struct RowSamples {
 
 struct RowFit {
     std::vector<Numbers> nodes;
-    double cost = 0.0;   ///< mean of the costs at all places by their importance
-    double worst = 0.0;  ///< the largest of them
+    /// Mean of the costs by their importance, over the places that count: not those that reflect nothing, nor
+    /// those beside them.
+    double cost = 0.0;
 };
 
 /// The best of several searches. Lobes are round at the first node.
 RowFit fitRow(const RowSamples& samples, bool cosines, ThreadTeam& team);
 /// The one of the same kind as that of another row, of a width not far off: so that what is interpolated
-/// between both fits too.
+/// between both fits too. If nothing comes of it, a fresh one.
 RowFit fitRowLike(const RowFit& other, const RowSamples& ofOther, const RowSamples& samples, bool cosines,
                   ThreadTeam& team);
 

@@ -88,8 +88,10 @@ AreaForm formOf(const Scene& scene, const Brdf& brdf, const std::vector<Use>& us
         return form;
     }
     const AreaModel& area = *brdf.area;
-    for (const Use& use : uses)
+    for (const Use& use : uses) {
         if (const auto reason = fit::refusal({&brdf, use.material->values})) form.refusal = *reason;
+        if (fit::huesDiffer(brdf, use.material->values)) form.request.colorsVary = true;
+    }
     for (size_t i = 0; i < brdf.parameters.size(); ++i) {
         if (!varies(brdf, i, uses)) continue;
         const std::string& name = brdf.parameters[i].name;

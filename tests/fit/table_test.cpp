@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <unistd.h>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -94,6 +96,26 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<Aim>& aim) {
         return std::string(aim.param.model) + std::to_string(aim.index);
     });
+
+/// Colours of a metal and of glass, red to blue 18 and 16 to 1: each of the three is within the aims, and not
+/// their mean alone.
+TEST(AreaTable, EveryColourFits) {
+    for (const std::array<double, 3>& f0 : {std::array{0.9, 0.3, 0.05}, std::array{0.08, 0.02, 0.005}}) {
+        TableRequest request = requestFor("ggx", "alphaX", 0.3);
+        const auto offset =
+            static_cast<size_t>(request.brdf->valueOffset(request.brdf->parameterIndex("f0")));
+        std::copy(f0.begin(), f0.end(), request.values.begin() + static_cast<std::ptrdiff_t>(offset));
+        request.colorsVary = huesDiffer(*request.brdf, request.values);
+        EXPECT_TRUE(request.colorsVary);
+        const auto [to60, to85] = largestErrors(request, makeTable(normalised(request)));
+        std::printf("f0 %g %g %g: %.2f %% to 60 degrees, %.2f %% to 85\n", f0[0], f0[1], f0[2], 100.0 * to60,
+                    100.0 * to85);
+        EXPECT_LE(to60, 0.03);
+        EXPECT_LE(to85, 0.1);
+    }
+    const TableRequest grey = requestFor("ggx", "alphaX", 0.3);
+    EXPECT_FALSE(huesDiffer(*grey.brdf, grey.values));
+}
 
 /// The part of the fit above the horizon carries the albedo: exactly so at nodes, to the noise of other
 /// samples (20000, which are spread evenly: 3e-3), and nearly so between them.
