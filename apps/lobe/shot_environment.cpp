@@ -22,14 +22,18 @@ constexpr std::array<std::array<const char*, 6>, 2> kFaceNames{
 struct Picture {
     Bitmap bitmap;
     ContentHash hash;
+    std::vector<std::string> warnings;
 };
 
-Bitmap decoded(ImageFiles& files, const fs::path& file, ContentHash& hash) {
+/// The picture of a file, which goes into the hash and the warnings of the whole.
+Bitmap decoded(ImageFiles& files, const fs::path& file, Picture& whole) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(file.string() + ": cannot be read; expected a picture of an environment");
     const std::vector<char> bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    hash.add(std::as_bytes(std::span(bytes)));
-    return files.decode(std::as_bytes(std::span(bytes)), file.string());
+    whole.hash.add(std::as_bytes(std::span(bytes)));
+    Bitmap bitmap = files.decode(std::as_bytes(std::span(bytes)), file.string());
+    if (auto warning = badTexelWarning(bitmap)) whole.warnings.push_back(file.string() + ": " + *warning);
+    return bitmap;
 }
 
 /// The file of one face: of a folder, or of a pattern whose * stands for the face's name.
@@ -44,7 +48,7 @@ std::optional<fs::path> faceFile(const fs::path& given, const std::string& name)
     return {};
 }
 
-Bitmap sixFaces(ImageFiles& files, const fs::path& given, ContentHash& hash) {
+Bitmap sixFaces(ImageFiles& files, const fs::path& given, Picture& whole) {
     for (const auto& names : kFaceNames) {
         if (!faceFile(given, names[0])) continue;
         std::array<Bitmap, 6> faces;
@@ -54,7 +58,7 @@ Bitmap sixFaces(ImageFiles& files, const fs::path& given, ContentHash& hash) {
                 throw InputError(given.string() + ": no face " + names[i] +
                                  "; expected px, nx, py, ny, pz and nz, or " +
                                  "posx, negx, posy, negy, posz and negz");
-            faces[i] = decoded(files, *file, hash);
+            faces[i] = decoded(files, *file, whole);
         }
         return fromCubeFaces(faces, given.string());
     }
@@ -65,10 +69,10 @@ Picture read(const std::string& file) {
     ImageFiles files;
     Picture picture;
     if (file.find('*') != std::string::npos || fs::is_directory(file)) {
-        picture.bitmap = sixFaces(files, file, picture.hash);
+        picture.bitmap = sixFaces(files, file, picture);
         return picture;
     }
-    picture.bitmap = decoded(files, file, picture.hash);
+    picture.bitmap = decoded(files, file, picture);
     if (isCubeCross(picture.bitmap)) picture.bitmap = fromCubeCross(picture.bitmap);
     return picture;
 }
@@ -92,16 +96,23 @@ json environmentChanges(const Scene& scene, const Settings& settings) {
     if (const json& turn = settings.get("env_rotation"); turn != 0.0) changes["env_rotation"] = turn;
     if (const json& factor = settings.get("env_intensity"); factor != 1.0) changes["env_intensity"] = factor;
     if (const json& seen = settings.get("env_background"); !seen.is_null()) changes["env_background"] = seen;
-    if (!changes.empty() && !hasEnvironment(scene, settings)) return json::object();
     return changes;
 }
 
 void applyEnvironment(Scene& scene, const Settings& settings) {
-    if (environmentChanges(scene, settings).empty()) return;
+    const json changes = environmentChanges(scene, settings);
+    if (changes.empty()) return;
+    if (!hasEnvironment(scene, settings)) {
+        std::string names;
+        for (const auto& [name, value] : changes.items())
+            names += (names.empty() ? "" : ", ") + name;
+        scene.warnings.push_back(names + ": the scene has no environment; nothing is changed by it");
+        return;
+    }
     if (const json& file = settings.get("env"); !file.is_null()) {
         const std::string name = file.get<std::string>();
         Picture picture = read(name);
-        if (auto warning = badTexelWarning(picture.bitmap)) scene.warnings.push_back(name + ": " + *warning);
+        scene.warnings.insert(scene.warnings.end(), picture.warnings.begin(), picture.warnings.end());
         scene.environment = Environment{};
         scene.environment->image = addPicture(scene, std::move(picture.bitmap), name);
         const std::string both = scene.contentHash + picture.hash.hex();

@@ -18,6 +18,8 @@ void CoveragePass::run(const View&) {
 
 void BackgroundPass::prepare() {
     program_ = &resources().programs.get("pass/screen.vert", planned_.program, {}, {});
+    if (planned_.writes.size() > 1)
+        coverage_ = &resources().programs.get("pass/screen.vert", "pass/coverage.frag", {}, {});
 }
 
 void BackgroundPass::run(const View& view) {
@@ -30,6 +32,11 @@ void BackgroundPass::run(const View& view) {
     else
         resources().inputs.setBackgroundMask();
     resources().inputs.drawScreen(*program_);
+    if (coverage_ != nullptr) {
+        glBindFramebuffer(GL_FRAMEBUFFER, targets().lighting(planned_.writes.back()));
+        coverage_->use();
+        resources().inputs.drawScreen(*coverage_);
+    }
     resources().inputs.clearMask();
 }
 

@@ -25,6 +25,7 @@ public:
 
 private:
     const gl::Program* program_ = nullptr;
+    const gl::Program* coverage_ = nullptr;  ///< where it is not in the same picture
 };
 
 /// Dims each contribution by what the blended surfaces in front of it let through.

@@ -160,6 +160,7 @@ void Planner::planBackground() {
                      {target},
                      scene_.environmentBlurred ? "the environment is seen behind surfaces, blurred"
                                                : "the environment is seen behind surfaces"};
+    if (contributions_) pass.writes.emplace_back("radiance");  // coverage only
     if (hasDeferredSurface_) pass.reads.emplace_back("depth");
     plan_.passes.push_back(pass);
 }

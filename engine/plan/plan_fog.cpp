@@ -45,6 +45,22 @@ void Planner::addFogVariants(PlannedPass& pass, const Defines& defines) const {
     pass.variants.push_back({"", -1, background});
 }
 
+/// What is in each contribution by now, of surfaces and of the environment behind them, is dimmed as the sum is.
+void Planner::addFogDims(PlannedPass& pass) const {
+    std::vector<Variant> dimmed;
+    if (hasDeferredSurface_) dimmed.push_back(pass.variants.front());
+    if (scene_.environmentSeen) dimmed.push_back(pass.variants.back());
+    if (dimmed.empty()) return;
+    for (Variant& variant : dimmed) {
+        variant.defines["FOG_DIMS"] = "1";
+        pass.variants.push_back(variant);
+    }
+    // Where all surfaces are drawn forward, the environment behind them is with what is transparent.
+    for (const std::string& name : plan_.contributionTargets)
+        if (name != "fog" && (name == "transparent") != deferred_)
+            pass.writes.push_back("contribution." + name);
+}
+
 void Planner::planFog() {
     if (!scene_.fog) return leaveOut("pass", "fog", "the scene has no fog");
     PlannedPass pass{"fog",
@@ -60,13 +76,7 @@ void Planner::planFog() {
     Defines defines;
     fogDefines(defines);
     addFogVariants(pass, defines);
-    if (contributions_ && hasDeferredSurface_) {
-        Defines dims = pass.variants.front().defines;
-        dims["FOG_DIMS"] = "1";
-        pass.variants.push_back({"", -1, dims});
-        for (const std::string& name : plan_.contributionTargets)
-            if (name != "fog" && name != "transparent") pass.writes.push_back("contribution." + name);
-    }
+    if (contributions_) addFogDims(pass);
     plan_.passes.push_back(pass);
 }
 

@@ -115,6 +115,7 @@ private:
     void airlightDefines(Defines& defines, LightType type) const;
     void requireAirlightLoop(const char* type, int count) const;
     void addFogVariants(PlannedPass& pass, const Defines& defines) const;
+    void addFogDims(PlannedPass& pass) const;
     void planFog();
     void planAirlight();
     void peelDefines(Defines& defines) const;

@@ -16,20 +16,35 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-glm::dvec3 texelOf(const Bitmap& bitmap, int x, int y) {
-    const auto channels = static_cast<size_t>(bitmap.channels);
-    const size_t first =
-        (static_cast<size_t>(y) * static_cast<size_t>(bitmap.width) + static_cast<size_t>(x)) * channels;
-    glm::dvec3 rgb;
-    for (int c = 0; c < 3; ++c)
-        rgb[c] = linearComponent(bitmap, first + (channels >= 3 ? static_cast<size_t>(c) : 0));
-    return rgb;
-}
+/// A picture's radiance, with 0 for texels that are negative or not finite, so that they spoil none beside them.
+class Linear {
+public:
+    explicit Linear(const Bitmap& bitmap) : width_(static_cast<size_t>(bitmap.width)) {
+        const auto channels = static_cast<size_t>(bitmap.channels);
+        texels_.reserve(width_ * static_cast<size_t>(bitmap.height));
+        for (size_t i = 0; i < width_ * static_cast<size_t>(bitmap.height); ++i) {
+            glm::vec3 rgb;
+            for (int c = 0; c < 3; ++c)
+                rgb[c] = static_cast<float>(
+                    linearComponent(bitmap, i * channels + (channels >= 3 ? static_cast<size_t>(c) : 0)));
+            const bool good = std::isfinite(rgb.r + rgb.g + rgb.b) && rgb.r >= 0 && rgb.g >= 0 && rgb.b >= 0;
+            texels_.push_back(good ? rgb : glm::vec3(0.0F));
+        }
+    }
+
+    glm::dvec3 at(int x, int y) const {
+        return texels_[static_cast<size_t>(y) * width_ + static_cast<size_t>(x)];
+    }
+
+private:
+    size_t width_;
+    std::vector<glm::vec3> texels_;
+};
 
 /// A square of a picture as a face of the cube: `right` and `up` as the square shows them.
 struct Face {
     glm::dvec3 forward, right, up;
-    const Bitmap* bitmap;
+    const Linear* picture;
     int x, y;
 };
 
@@ -40,8 +55,7 @@ glm::dvec3 seen(const Face& face, int side, const glm::dvec3& d) {
     const double v = (1.0 - glm::dot(d, face.up) / depth) / 2.0 * side - 0.5;
     const int x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
     const auto at = [&](int i, int j) {
-        return texelOf(*face.bitmap, face.x + std::clamp(i, 0, side - 1),
-                       face.y + std::clamp(j, 0, side - 1));
+        return face.picture->at(face.x + std::clamp(i, 0, side - 1), face.y + std::clamp(j, 0, side - 1));
     };
     return glm::mix(glm::mix(at(x, y), at(x + 1, y), u - x), glm::mix(at(x, y + 1), at(x + 1, y + 1), u - x),
                     v - y);
@@ -128,8 +142,9 @@ bool isCubeCross(const Bitmap& bitmap) {
 Bitmap fromCubeCross(const Bitmap& cross) {
     const bool lying = cross.width > cross.height;
     const int side = cross.width / (lying ? 4 : 3);
+    const Linear picture(cross);
     const auto at = [&](const glm::dvec3& forward, const glm::dvec3& right, const glm::dvec3& up, int x,
-                        int y) { return Face{forward, right, up, &cross, x * side, y * side}; };
+                        int y) { return Face{forward, right, up, &picture, x * side, y * side}; };
     return equirectangular(
         {at(kX, kZ, kY, 0, 1), at(-kX, -kZ, kY, 2, 1), at(kY, -kX, -kZ, 1, 0), at(-kY, -kX, kZ, 1, 2),
          at(kZ, -kX, kY, 1, 1), lying ? at(-kZ, kX, kY, 3, 1) : at(-kZ, -kX, -kY, 1, 3)},
@@ -143,8 +158,9 @@ Bitmap fromCubeFaces(const std::array<Bitmap, 6>& faces, const std::string& what
             throw InputError(what + ": faces of " + std::to_string(side) + " and " +
                              std::to_string(face.width) + " x " + std::to_string(face.height) +
                              "; expected six squares of one size");
+    const std::vector<Linear> pictures(faces.begin(), faces.end());
     const auto at = [&](size_t i, const glm::dvec3& forward, const glm::dvec3& right, const glm::dvec3& up) {
-        return Face{forward, right, up, &faces[i], 0, 0};
+        return Face{forward, right, up, &pictures[i], 0, 0};
     };
     return equirectangular({at(0, kX, -kZ, kY), at(1, -kX, kZ, kY), at(2, kY, kX, -kZ), at(3, -kY, kX, kZ),
                             at(4, kZ, kX, kY), at(5, -kZ, -kX, kY)},

@@ -89,6 +89,20 @@ TEST(FogPlan, FogDimsEachContribution) {
     EXPECT_THAT(definesWith(plan, "FOG_DIMS"), ElementsAre("fog FOG_DIMS 1"));
 }
 
+TEST(FogPlan, FogDimsTheEnvironmentBehindSurfaces) {
+    Scene scene = litQuad();
+    scene.fog = fogOf(0.0);
+    scene.environment = Environment{};
+    const AovSet both{Aov::radiance, Aov::contributions};
+    EXPECT_THAT(definesWith(planOf(scene, {}, both), "FOG_DIMS"),
+                ElementsAre("fog FOG_DIMS 1", "fog FOG_DIMS 1"));
+    EXPECT_THAT(planOf(scene, {.shading = Shading::forward}, both).pass("fog")->writes,
+                ElementsAre("contribution.fog", "contribution.transparent"));
+    scene.environment->background = false;
+    EXPECT_THAT(planOf(scene, {.shading = Shading::forward}, both).pass("fog")->writes,
+                ElementsAre("contribution.fog"));
+}
+
 TEST(FogPlan, AirlightOnlyWhereFogScattersTheLightOfALamp) {
     Scene scene = litQuad();
     scene.fog = fogOf(0.05);

@@ -18,6 +18,7 @@ constexpr int kWidth = 30, kHeight = 16;
 struct Surface {
     const char* model;
     double roughness, metallic;
+    double prefiltered = 0.0;  ///< what it is off by at most, a share of the mean
 };
 
 /// A ball, fine enough that its normals are those of a sphere.
@@ -95,8 +96,8 @@ std::pair<double, double> errorOf(const Image& image, const std::vector<glm::dve
 
 class EnvironmentPicture : public testing::TestWithParam<Surface> {};
 
-/// The bounds of `prefiltered` are those of the split sum with a dominant direction (docs/environment.md);
-/// sampling has none but its noise.
+/// What `prefiltered` is off by, of the split sum with a dominant direction, has been measured for each surface
+/// (docs/environment.md): the bounds are half as much again. Sampling has none but its noise.
 TEST_P(EnvironmentPicture, AgreesWithTheReference) {
     const Scene scene = ball(GetParam());
     const auto truths = truth(scene, 5e-3);
@@ -109,19 +110,22 @@ TEST_P(EnvironmentPicture, AgreesWithTheReference) {
     std::printf("%s %.2f: prefiltered %.2f %%, bias %.2f %%; sampled %.2f %%, bias %.2f %%\n",
                 GetParam().model, GetParam().roughness, 100 * off, 100 * bias, 100 * noise,
                 100 * sampledBias);
-    EXPECT_LT(off, 0.08);
-    EXPECT_LT(noise, 0.03);
+    EXPECT_LT(off, GetParam().prefiltered);
+    EXPECT_LT(noise, 0.01);
     EXPECT_LT(std::abs(sampledBias), 5e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EnvironmentPicture,
-                         testing::Values(Surface{"lambert", 1.0, 0.0},
-                                         Surface{"metallic_roughness", 0.2, 1.0},
-                                         Surface{"metallic_roughness", 0.5, 0.0},
-                                         Surface{"metallic_roughness", 1.0, 1.0},
-                                         Surface{"cook_torrance", 0.5, 1.0}, Surface{"ward", 0.4, 1.0},
-                                         Surface{"phong", 0.5, 1.0}, Surface{"ashikhmin_shirley", 0.4, 1.0},
-                                         Surface{"oren_nayar", 1.0, 0.0}, Surface{"he", 0.5, 1.0}));
+                         testing::Values(Surface{"lambert", 1.0, 0.0, 0.003},
+                                         Surface{"metallic_roughness", 0.2, 1.0, 0.041},
+                                         Surface{"metallic_roughness", 0.5, 0.0, 0.0075},
+                                         Surface{"metallic_roughness", 1.0, 1.0, 0.012},
+                                         Surface{"cook_torrance", 0.5, 1.0, 0.053},
+                                         Surface{"ward", 0.4, 1.0, 0.036},
+                                         Surface{"phong", 0.5, 1.0, 0.023},
+                                         Surface{"ashikhmin_shirley", 0.4, 1.0, 0.039},
+                                         Surface{"oren_nayar", 1.0, 0.0, 0.023},
+                                         Surface{"he", 0.5, 1.0, 0.09}));
 
 TEST(EnvironmentPictures, MirrorAndBackgroundAreTheMapItself) {
     const Scene scene = ball({"mirror", 0.0, 1.0});
@@ -133,8 +137,8 @@ TEST(EnvironmentPictures, DiffuseByHarmonicsIsClose) {
     const Scene scene = ball({"lambert", 1.0, 0.0});
     const auto truths = truth(scene, 2e-3);
     for (const auto& [diffuse, bound] :
-         {std::pair(EnvironmentDiffuse::map, 2e-3), std::pair(EnvironmentDiffuse::sh4, 0.02),
-          std::pair(EnvironmentDiffuse::sh2, 0.05)}) {
+         {std::pair(EnvironmentDiffuse::map, 2e-3), std::pair(EnvironmentDiffuse::sh4, 0.0075),
+          std::pair(EnvironmentDiffuse::sh2, 0.02)}) {
         Quality quality = exact();
         quality.envDiffuse = diffuse;
         const auto [off, bias] = errorOf(drawn(scene, quality), truths);
@@ -157,6 +161,37 @@ TEST(EnvironmentPictures, ForwardShadesAsDeferredDoes) {
                          ? 1U
                          : 0U;
         EXPECT_LT(apart, deferred.values.size() / 50) << model;
+    }
+}
+
+/// Behind fog and a pane, deferred and forward: contributions add up to the picture that is drawn without them, to a
+/// few roundings of sums in another order, and so does coverage.
+TEST(EnvironmentPictures, ContributionsAddUp) {
+    Scene scene = ball({"metallic_roughness", 0.4, 0.5});
+    scene.fog = Fog{};
+    scene.fog->extinction = {0.05, 0.1, 0.2};
+    scene.fog->radiance = {0.3, 0.2, 0.1};
+    scene.fog->heightFalloff = 0.5;
+    const int pane = test::addMaterial(scene, "metallic_roughness");
+    scene.materials[static_cast<size_t>(pane)].alphaMode = AlphaMode::blend;
+    scene.materials[static_cast<size_t>(pane)].alpha = 0.3F;
+    test::addInstance(scene, test::addQuad(scene, pane, 0.5F),
+                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.4, 0.2, 2.0)));
+    for (const Shading shading : {Shading::deferred, Shading::forward}) {
+        RenderOptions options;
+        options.width = kWidth;
+        options.height = kHeight;
+        options.quality = exact();
+        options.quality.shading = shading;
+        const Image plain = test::render(scene, camera(), options);
+        options.aovs = {Aov::radiance, Aov::contributions};
+        const Image split = test::render(scene, camera(), options);
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x)
+                for (size_t c = 0; c < 4; ++c)
+                    ASSERT_NEAR(split.pixel(x, y)[c], plain.pixel(x, y)[c],
+                                8 * 6e-8F * (1.0F + plain.pixel(x, y)[c]))
+                        << x << ", " << y << " channel " << c;
     }
 }
 

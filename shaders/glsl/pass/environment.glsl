@@ -131,9 +131,7 @@ vec3 environment_prefiltered(LightReceiver r, MODEL_PARAMS params)
 #ifdef ENVIRONMENT_SAMPLED
 #include "common/pixel_lattice.glsl"
 
-const int ENVIRONMENT_DIRECTIONS = 16384;  // of the list; 2^14
-
-uniform samplerBuffer uEnvDirections;        // unit, world axes, density; radiance
+uniform samplerBuffer uEnvDirections;        // two texels each, 2^n in all: unit, world axes, density; radiance
 uniform int uEnvPairsFirst, uEnvPairsEnd;    // this draw's
 uniform int uEnvPairsAll;
 uniform int uEnvFrame;
@@ -192,9 +190,10 @@ vec3 environment_sampled(LightReceiver r, MODEL_PARAMS params)
     // Runs of the list are as well spread as the whole of it.
     int start = (int(shift.x >> 8u) / uEnvPairsAll + uEnvFrame) * uEnvPairsAll;
     vec3 sum = vec3(0.0);
+    int last = textureSize(uEnvDirections) / 2 - 1;
     int i = uEnvPairsFirst;
     do {
-        int row = 2 * ((start + i) & (ENVIRONMENT_DIRECTIONS - 1));
+        int row = 2 * ((start + i) & last);
         vec4 drawn = texelFetch(uEnvDirections, row);
         vec3 wi = frame_to_local(r.frame, drawn.xyz);
         if (wi.z > 0.0)
