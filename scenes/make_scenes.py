@@ -5,7 +5,7 @@ usage: make_scenes.py [FOLDER]"""
 import pathlib
 import sys
 
-from making import environment, extreme, fog, gallery, lights, models, vases
+from making import environment, extreme, fog, gallery, lights, models, streets, vases
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -31,6 +31,8 @@ SCENES = {
     "lights/shadow_point": lights.shadow_point,
     "lights/shadow_spot": lights.shadow_spot,
     "lights/shadow_fence": lights.shadow_fence,
+    "lights/street": streets.street,
+    "lights/market": streets.market,
     "fog/even": fog.even_fog,
     "fog/height": fog.height_fog,
     "fog/airlight": fog.airlight,

@@ -90,7 +90,7 @@ bool hasEnvironment(const Scene& scene, const Settings& settings) {
     return scene.environment.has_value() || !settings.get("env").is_null();
 }
 
-json environmentChanges(const Scene& scene, const Settings& settings) {
+json environmentChanges(const Settings& settings) {
     json changes = json::object();
     if (const json& file = settings.get("env"); !file.is_null()) changes["env"] = file;
     if (const json& turn = settings.get("env_rotation"); turn != 0.0) changes["env_rotation"] = turn;
@@ -100,7 +100,7 @@ json environmentChanges(const Scene& scene, const Settings& settings) {
 }
 
 void applyEnvironment(Scene& scene, const Settings& settings) {
-    const json changes = environmentChanges(scene, settings);
+    const json changes = environmentChanges(settings);
     if (changes.empty()) return;
     if (!hasEnvironment(scene, settings)) {
         std::string names;

@@ -7,8 +7,8 @@
 
 namespace lobe::app {
 
-/// The settings that change it, by name; empty: none, as where there is no environment.
-nlohmann::json environmentChanges(const Scene& scene, const Settings& settings);
+/// The settings that are to change it, by name.
+nlohmann::json environmentChanges(const Settings& settings);
 
 /// Whether there will be one.
 bool hasEnvironment(const Scene& scene, const Settings& settings);

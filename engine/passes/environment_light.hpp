@@ -20,6 +20,7 @@ public:
 
     /// `frame`: number of the jittered frame.
     void update(int frame) { frame_ = frame; }
+    int frame() const { return frame_; }
 
     /// Texture units of its own, and every uniform of pass/environment.glsl that the program, of one model,
     /// uses. `samples`: directions in all. Returns `firstUnit`, which stays free.

@@ -1,5 +1,7 @@
 #include "passes/gbuffer_pass.hpp"
 
+#include <cmath>
+
 namespace lobe {
 
 void GbufferPass::prepare() {
@@ -15,11 +17,14 @@ void GbufferPass::run(const View& view) {
     glDepthMask(GL_TRUE);
     glStencilMask(0xff);
     glClear(GL_DEPTH_BUFFER_BIT | (plan().masked ? GL_STENCIL_BUFFER_BIT : 0u));
+    const float beyond[] = {HUGE_VALF, 0.0f, 0.0f, 0.0f};
     const float black[] = {0.0f, 0.0f, 0.0f, 0.0f};
     for (size_t i = 0; i < plan().gbufferTargets.size(); ++i) {
         const std::string& target = plan().gbufferTargets[i];
         if (target == "radiance" || target.starts_with("contribution."))
             glClearBufferfv(GL_COLOR, static_cast<GLint>(i), black);
+        if (target == "linear_z" && plan().occlusionSlices > 0)
+            glClearBufferfv(GL_COLOR, static_cast<GLint>(i), beyond);  // looked at beside surfaces too
     }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(plan().reversedDepth ? GL_GREATER : GL_LESS);

@@ -6,6 +6,7 @@
 #include "passes/forward_pass.hpp"
 #include "passes/gbuffer_pass.hpp"
 #include "passes/light_pass.hpp"
+#include "passes/occlusion_pass.hpp"
 #include "passes/screen_passes.hpp"
 #include "passes/shadow_map_pass.hpp"
 
@@ -21,6 +22,7 @@ std::unique_ptr<Pass> makePass(const PlannedPass& planned, FrameResources& resou
     for (LightType type : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
         if (planned.name == std::string("light.") + nameOf(type))
             return std::make_unique<BodyLightPass>(planned, resources, type);
+    if (planned.name == "ambient_occlusion") return std::make_unique<OcclusionPass>(planned, resources);
     if (planned.name == "light.environment") return std::make_unique<EnvironmentPass>(planned, resources);
     if (planned.name == "background") return std::make_unique<BackgroundPass>(planned, resources);
     if (planned.name == "fog") return std::make_unique<FogPass>(planned, resources);

@@ -54,6 +54,9 @@ int ScreenInputs::bind(const gl::Program& program, const Targets& targets, const
     for (int i = 0; targets.has("parameters" + std::to_string(i)); ++i)
         attach("uParameters" + std::to_string(i), GL_TEXTURE_2D,
                targets.texture("parameters" + std::to_string(i)));
+    if (targets.has("occlusion")) attach("uOcclusion", GL_TEXTURE_2D, targets.texture("occlusion"));
+    if (targets.has("ambient_occlusion"))
+        attach("uAmbientOcclusion", GL_TEXTURE_2D, targets.texture("ambient_occlusion"));
     if (materials_.texture) attach("uMaterials", GL_TEXTURE_BUFFER, materials_.texture.id());
 
     tables_.bind(program);

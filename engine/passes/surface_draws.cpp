@@ -53,7 +53,7 @@ SurfaceDraws::SurfaceDraws(const Scene& scene, const FramePlan& plan, const Capa
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const SurfaceFeatures features = surfaceFeatures(
-            scene.materials[static_cast<size_t>(primitive.material)], primitive, plan.ambient);
+            scene.materials[static_cast<size_t>(primitive.material)], primitive, plan.surroundings);
         const auto found = std::find(plan.surfaces.begin(), plan.surfaces.end(), features);
         surfaceOfInstance_.push_back(static_cast<int>(found - plan.surfaces.begin()));
         firstTriangles_.push_back(triangles);
@@ -65,7 +65,7 @@ const SurfaceDraws::Geometry& SurfaceDraws::geometry(int index) {
     if (const auto found = geometry_.find(index); found != geometry_.end()) return found->second;
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(index)];
     const Material& material = scene_.materials[static_cast<size_t>(primitive.material)];
-    const SurfaceFeatures features = surfaceFeatures(material, primitive, plan_.ambient);
+    const SurfaceFeatures features = surfaceFeatures(material, primitive, plan_.surroundings);
     const bool lit = features.brdf != kUnlit;
     const bool tangents =
         features.texture("normal") != nullptr || (lit && requireBrdf(features.brdf).traits.usesTangent);

@@ -60,6 +60,7 @@ Targets::Targets(const FramePlan& plan, int width, int height) : width_(width), 
         maskOnly_ = gl::makeFramebuffer({}, mask_.id(), attachment);
     }
     const GLuint mask = copies_ ? mask_.id() : depth;
+    if (has("ambient_occlusion")) pictures.emplace_back("ambient_occlusion");
     for (const std::string& picture : pictures)
         lighting_.emplace(picture, gl::makeFramebuffer({texture(picture)}, mask, attachment));
     if (!plan.dataTargets.empty()) data_ = gl::makeFramebuffer(ids(plan.dataTargets), mask, attachment);

@@ -18,6 +18,7 @@ constexpr std::array kShadowMethods{"auto", "maps", "rays"};
 constexpr std::array kAreaLights{"analytic", "sampled"};
 constexpr std::array kEnvironmentLightings{"prefiltered", "sampled"};
 constexpr std::array kEnvironmentDiffuses{"sh2", "sh4", "map"};
+constexpr std::array kAmbientOcclusions{"off", "low", "high"};
 constexpr std::array kTransparencies{"sorted", "peeled"};
 
 /// The enumerator of an allowed value, named in their order.
@@ -160,6 +161,15 @@ std::string withoutEnvironmentSamples(const SceneSummary& scene, const Quality& 
     });
     return split && quality.envLighting == EnvironmentLighting::prefiltered ? "the environment is prefiltered"
                                                                             : "";
+}
+
+/// Why nothing that the depth buffer shows dims the environment.
+std::string withoutAmbientOcclusion(const SceneSummary& scene, const Quality& quality) {
+    if (std::string reason = withoutEnvironmentDiffuse(scene, quality); !reason.empty()) return reason;
+    if (std::string reason = withoutGbuffer(scene, quality); !reason.empty()) return reason;
+    if (!scene.environmentCastsShadow) return "the environment casts no shadows";
+    if (scene.castingTriangles == 0) return "no surface of the scene casts shadows";
+    return quality.shadows == Shadows::none ? "shadows are off" : "";
 }
 
 std::string withoutBlended(const SceneSummary& scene, const Quality&) {
@@ -367,6 +377,19 @@ const std::vector<Knob>& knobTable() {
          .get = [](const Quality& q) { return std::to_string(q.envSamples); },
          .set = [](Quality& q, const std::string& value) { q.envSamples = std::stoi(value); },
          .withoutEffect = withoutEnvironmentSamples},
+        {.name = "ambient_occlusion",
+         .title = "Ambient occlusion",
+         .help = "looks into the depth buffer for what is in the way of the prefiltered environment",
+         .values = {"off", "low", "high"},
+         .range = {},
+         .get = [](const Quality& q) -> std::string {
+             return kAmbientOcclusions[static_cast<size_t>(q.ambientOcclusion)];
+         },
+         .set =
+             [](Quality& q, const std::string& value) {
+                 q.ambientOcclusion = chosen<AmbientOcclusion>(kAmbientOcclusions, value);
+             },
+         .withoutEffect = withoutAmbientOcclusion},
         {.name = "transparency",
          .title = "Transparency",
          .help = "whole objects from back to front, or peeled layer by layer",

@@ -55,6 +55,7 @@ FramePlan Planner::plan() {
 
     planModels();
     planShadows();
+    planOcclusion();
     planTable();
     planGeometryChannels();
     planRadiance();

@@ -93,6 +93,7 @@ struct FramePlan {
     bool reversedDepth = true;  ///< needs clip control; otherwise linear z in a channel of its own
     bool masked = false;        ///< lighting passes are masked by stencil, a value a model
     bool ambient = false;
+    bool surroundings = false;  ///< surfaces are drawn with SceneSummary's `surroundings`
     bool clusteredPoint = false, clusteredSpot = false;
     /// Metres beyond which a light of intensity 1 W/sr is left out; one of intensity I: times I^(1/5). 0:
     /// none is.
@@ -107,6 +108,10 @@ struct FramePlan {
     int environmentSamples = 0;         ///< directions to it in each frame; 0: none are needed
     int environmentSamplesForward = 0;  ///< the same, for surfaces of the forward pass
     PlannedShadow environmentShadow = PlannedShadow::none;
+    /// Occlusion textures keep what is prefiltered of it from surfaces.
+    bool occlusionTextures = false;
+    /// So does what the depth buffer shows: half planes about the view ray, looks along each side of one. 0: it does not.
+    int occlusionSlices = 0, occlusionSteps = 0;
     bool environmentMap = false;   ///< its picture itself is looked up, not only what is made of it
     bool rays = false;             ///< the scene's hierarchy of boxes is made for the rays of some program
     int airlightNodes = 0;         ///< of each lamp's airlight; 0: there is none

@@ -67,6 +67,7 @@ void Planner::planGeometryChannels() {
     planTangent();
     planMaterialId();
     planParameters();
+    planOcclusionChannels();
 }
 
 void Planner::planNormal() {
@@ -238,9 +239,6 @@ void Planner::planRadiance() {
     if (gbufferRadiance_) plan_.gbufferTargets.push_back("radiance");
     if (!scene_.emission) leaveOut("pass", "emission", "no material emits");
     if (!scene_.ambient) leaveOut("pass", "ambient", "the scene has no ambient light");
-    if (!scene_.occlusion)
-        leaveOut("texture", "occlusion",
-                 scene_.ambient ? "no material has one" : "there is no ambient light for it to act on");
     if (contributions_) {
         plan_.contributionTargets = {"emission", "ambient", "directional", "point", "spot"};
         for (const auto& [type, count] : scene_.bodyLights)

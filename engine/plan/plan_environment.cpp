@@ -57,7 +57,7 @@ void Planner::planEnvironmentShadow() {
     std::string reason = whyNoShadow(scene_.environmentCastsShadow ? 1 : 0);
     if (reason.empty() && !sought)
         reason = plan_.environmentMethods.empty() ? "no surface shows it"
-                                                  : "the map is integrated as if nothing blocked it";
+                                                  : "the map is integrated beforehand, as if nothing blocked it";
     if (reason.empty() && prefersMaps()) reason = "shadow maps have no view of it" + mapsReason();
     if (!reason.empty()) return leaveOut("shadow", "environment", reason);
     requireRays();
@@ -140,9 +140,15 @@ void Planner::planEnvironmentPass() {
         if (!showsEnvironment(brdf.name)) continue;
         Defines defines = screenDefines(brdf.name);
         defines.merge(environmentDefines(brdf.name));
+        if (isPrefiltered(brdf.name)) {
+            if (plan_.channel("occlusion") != nullptr) defines["OCCLUSION_TEXTURES"] = "1";
+            if (plan_.occlusionSlices > 0) defines["AMBIENT_OCCLUSION"] = "1";
+        }
         pass.variants.push_back({brdf.name, -1, defines});
     }
     if (pass.variants.empty()) return leaveOut("pass", name, "no opaque surface shows it");
+    for (const char* channel : {"occlusion", "ambient_occlusion"})
+        if (plan_.channel(channel) != nullptr) pass.reads.emplace_back(channel);
     plan_.passes.push_back(pass);
 }
 

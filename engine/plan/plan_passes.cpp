@@ -86,6 +86,7 @@ void Planner::planPasses() {
     planLightPass(LightType::point, scene_.pointLights);
     planLightPass(LightType::spot, scene_.spotLights);
     planBodyPasses();
+    planOcclusionPass();
     planEnvironmentPass();
     planBackground();
     planFog();

@@ -30,6 +30,8 @@ void Planner::forwardDefines(Defines& defines, const SurfaceFeatures& features) 
     }
     defines.merge(forwardBodyDefines(features.brdf));
     defines.merge(environmentDefines(features.brdf));
+    if (plan_.occlusionTextures && features.texture("occlusion") != nullptr && isPrefiltered(features.brdf))
+        defines["OCCLUSION_TEXTURES"] = "1";
     if (scene_.fog) {
         defines["FOG"] = "1";
         fogDefines(defines);

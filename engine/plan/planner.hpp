@@ -101,6 +101,11 @@ private:
     void planEnvironment();
     Defines environmentDefines(const std::string& model) const;
     void planEnvironmentPass();
+    bool isPrefiltered(const std::string& model) const;
+    std::string whyNoOcclusion() const;
+    void planOcclusion();
+    void planOcclusionChannels();
+    void planOcclusionPass();
     void planBackground();
     void planBodyPass(LightType type);
     void shadowDefines(Defines& defines, LightType type) const;

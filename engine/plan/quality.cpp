@@ -17,9 +17,10 @@ Quality qualityPreset(const std::string& name) {
                 .textureBits = 8,
                 .shadows = Shadows::none,
                 .envDiffuse = EnvironmentDiffuse::sh2,
-                .envSamples = 16};
+                .envSamples = 16,
+                .ambientOcclusion = AmbientOcclusion::off};
     if (name == "balanced") return {};
-    if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16};
+    if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16, .ambientOcclusion = AmbientOcclusion::high};
     if (name == "converged")
         return {.samples = 16,
                 .gbufferBits = 32,

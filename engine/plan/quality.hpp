@@ -45,6 +45,12 @@ enum class EnvironmentDiffuse : uint8_t {
     map   ///< integrated for every direction of a small map
 };
 
+enum class AmbientOcclusion : uint8_t {
+    off,
+    low,  ///< few looks into the depth buffer
+    high
+};
+
 enum class Transparency : uint8_t {
     sorted,  ///< whole objects, back to front
     peeled   ///< layer by layer, exact
@@ -87,6 +93,8 @@ struct Quality {
     EnvironmentDiffuse envDiffuse = EnvironmentDiffuse::map;
     /// Directions to the environment, for each sample of a pixel, where it is sampled.
     int envSamples = 32;
+    /// Of the prefiltered environment, where shadows are on: what the depth buffer shows to be in its way.
+    AmbientOcclusion ambientOcclusion = AmbientOcclusion::low;
     Transparency transparency = Transparency::sorted;
 
     bool operator==(const Quality&) const = default;

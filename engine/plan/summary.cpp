@@ -87,11 +87,11 @@ std::string imageLabel(const Scene& scene, int texture) {
                 : "");
 }
 
-void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) {
+void summariseTextures(const Scene& scene, bool surroundings, SceneSummary& summary) {
     std::map<int, std::map<std::string, int>> users;  // texture -> slot -> materials
     for (int m : summary.materialsInUse) {
         const Material& material = scene.materials[static_cast<size_t>(m)];
-        const SurfaceFeatures features = surfaceFeatures(material, Primitive{}, ambient);
+        const SurfaceFeatures features = surfaceFeatures(material, Primitive{}, surroundings);
         for (const SurfaceTexture& texture : features.textures)
             ++users[slotOf(material, texture.slot).texture][texture.slot];
     }
@@ -225,7 +225,7 @@ bool slotIsSrgb(const Material& material, std::string_view slot) {
     return brdf.parameters[static_cast<size_t>(brdf.parameterIndex(slot))].textureIsSrgb;
 }
 
-SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool ambient) {
+SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool surroundings) {
     SurfaceFeatures features;
     features.brdf = material.brdf;
     features.alphaMode = material.alphaMode;
@@ -242,7 +242,7 @@ SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primi
         for (size_t p = 0; p < material.textures.size(); ++p)
             collector.use(brdf.parameters[p].name, material.textures[p], material.textureChannels[p]);
         collector.use("normal", material.normalTexture);
-        if (ambient) collector.use("occlusion", material.occlusionTexture);
+        if (surroundings) collector.use("occlusion", material.occlusionTexture);
         if (features.emission) collector.use("emission", material.emissionTexture);
     }
     if (material.alphaMode != AlphaMode::opaque) collector.use("alpha", material.baseColorTexture, 3);
@@ -258,14 +258,16 @@ SceneSummary summarise(const Scene& scene) {
     countLights(scene, summary);
 
     std::map<std::string, std::map<int, Use>> opaqueUses;  // model -> material -> use
-    std::set<SurfaceFeatures> surfaces;
+    std::set<SurfaceFeatures> surfaces, withoutOcclusion;
+    const bool surroundings = summary.ambient || (summary.environment && summary.environmentCastsShadow);
     std::set<int> materials;
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-        const SurfaceFeatures features = surfaceFeatures(material, primitive, summary.ambient);
+        const SurfaceFeatures features = surfaceFeatures(material, primitive, surroundings);
         addPeak(material, primitive, summary);
         surfaces.insert(features);
+        withoutOcclusion.insert(surfaceFeatures(material, primitive, false));
         materials.insert(primitive.material);
         ++summary.instances;
         summary.triangles += primitive.triangleCount();
@@ -309,8 +311,10 @@ SceneSummary summarise(const Scene& scene) {
             ++(why->empty() ? summary.exactFresnel : summary.keptFresnel[*why]);
     summary.tableRows = tableRows(scene.materials);
     summary.surfaces.assign(surfaces.begin(), surfaces.end());
+    if (withoutOcclusion != surfaces)
+        summary.surfacesWithoutOcclusion.assign(withoutOcclusion.begin(), withoutOcclusion.end());
     summary.materialsInUse.assign(materials.begin(), materials.end());
-    summariseTextures(scene, summary.ambient, summary);
+    summariseTextures(scene, surroundings, summary);
     return summary;
 }
 

@@ -70,7 +70,9 @@ struct SceneSummary {
     size_t tableRows = 0;                    ///< of the tables that models read beside their parameters
     std::vector<BrdfFacts> brdfs;  ///< sorted by name; kUnlit included; of opaque and masked surfaces only
     std::set<std::string> blendedBrdfs;
-    std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once
+    std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once; with occlusion textures where there is
+                                            ///< ambient light or an environment that surfaces block
+    std::vector<SurfaceFeatures> surfacesWithoutOcclusion;  ///< where these differ, the same without
     std::vector<int> materialsInUse;        ///< indices into Scene::materials, ascending
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
@@ -118,9 +120,9 @@ SceneSummary summarise(const Scene& scene);
 /// their weight's share of the sum have the least volume to light in sum.
 double reachWeight(const Light& light);
 
-/// What a material asks of a surface shader, with the vertex data that `primitive` brings. Occlusion textures
-/// count only where there is ambient light for them to act on.
-SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool ambient);
+/// What a material asks of a surface shader, with the vertex data that `primitive` brings. `surroundings`: there
+/// is ambient light, or an environment, for occlusion textures to act on.
+SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool surroundings);
 
 /// The texture slot behind a name of SurfaceTexture::slot.
 const TextureSlot& slotOf(const Material& material, std::string_view slot);

@@ -49,6 +49,50 @@ TEST(EnvironmentPlan, PrefilteredNeedsNoRaysAndNoDirections) {
     EXPECT_THAT(reasonFor(plan, "environment"), HasSubstr("as if nothing blocked it"));
 }
 
+TEST(EnvironmentPlan, OcclusionOnlyWhereSomethingIsPrefilteredAndBlocked) {
+    const Scene scene = surrounded("metallic_roughness");
+    const FramePlan plan = planOf(scene);
+    ASSERT_NE(plan.pass("ambient_occlusion"), nullptr);
+    EXPECT_NE(plan.channel("ambient_occlusion"), nullptr);
+    EXPECT_TRUE(definesOf(plan).contains("AMBIENT_OCCLUSION"));
+    Scene open = scene;
+    open.environment->castsShadow = false;
+    const std::vector<std::pair<FramePlan, std::string>> without{
+        {planOf(quad("metallic_roughness")), "no environment"},
+        {planOf(scene, {.shadows = Shadows::none}), "shadows are off"},
+        {planOf(open), "casts none"},
+        {planOf(scene, {.envLighting = EnvironmentLighting::sampled}), "no surface shows what is prefiltered"},
+        {planOf(surrounded("mirror")), "no surface shows what is prefiltered"},
+        {planOf(scene, {.shading = Shading::forward}), "forward shading"},
+        {planOf(scene, {.ambientOcclusion = AmbientOcclusion::off}), "ambient_occlusion is off"}};
+    for (const auto& [bare, reason] : without) {
+        EXPECT_EQ(bare.pass("ambient_occlusion"), nullptr) << reason;
+        EXPECT_EQ(bare.channel("ambient_occlusion"), nullptr) << reason;
+        EXPECT_FALSE(definesOf(bare).contains("AMBIENT_OCCLUSION")) << reason;
+        EXPECT_THAT(reasonFor(bare, "ambient_occlusion"), HasSubstr(reason));
+    }
+}
+
+TEST(EnvironmentPlan, OcclusionTexturesOnlyWhereTheyDimSomething) {
+    Scene scene = surrounded("metallic_roughness");
+    scene.materials[0].occlusionTexture.texture =
+        test::addImage(scene, 1, 1, 3, [](int, int, int) { return 128; });
+    const FramePlan plan = planOf(scene);
+    ASSERT_NE(plan.channel("occlusion"), nullptr);
+    EXPECT_TRUE(definesOf(plan).contains("OCCLUSION_TEXTURES"));
+    const FramePlan forward = planOf(scene, {.shading = Shading::forward});
+    EXPECT_EQ(forward.channel("occlusion"), nullptr);
+    EXPECT_TRUE(definesOf(forward).contains("OCCLUSION_TEXTURES"));
+    for (const FramePlan& bare : {planOf(scene, {.shadows = Shadows::none}),
+                                  planOf(scene, {.envLighting = EnvironmentLighting::sampled}),
+                                  planOf(surrounded("metallic_roughness"))}) {
+        EXPECT_EQ(bare.channel("occlusion"), nullptr);
+        EXPECT_FALSE(definesOf(bare).contains("OCCLUSION"));
+        EXPECT_FALSE(definesOf(bare).contains("OCCLUSION_TEXTURES"));
+        EXPECT_FALSE(definesOf(bare).contains("UV0"));
+    }
+}
+
 TEST(EnvironmentPlan, ModelsThatAreNotSplitAreSampled) {
     const FramePlan plan = planOf(surrounded("he"));
     const PlannedEnvironment& how = plan.environmentMethods.at("he");

@@ -1,14 +1,11 @@
 /// Pictures of surfaces in an environment, drawn with OpenGL, against the reference.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <thread>
 
 #include "environment/pictures.hpp"
-#include "passes/rendering.hpp"
-#include "reference/pixel.hpp"
+#include "reference/pictures.hpp"
 
 namespace lobe::reference {
 namespace {
@@ -52,46 +49,8 @@ Image drawn(const Scene& scene, const Quality& quality) {
     return test::render(scene, camera(), options);
 }
 
-Quality exact() {
-    Quality quality;
-    quality.samples = 1;
-    quality.gbufferBits = 32;
-    quality.shadows = Shadows::none;
-    return quality;
-}
-
 std::vector<glm::dvec3> truth(const Scene& scene, double error, bool shadows = false) {
-    const PixelIntegrator integrator(std::make_shared<const Scene>(scene), camera(), kWidth, kHeight,
-                                     {.filter = PixelFilter::point, .shadows = shadows});
-    std::vector<glm::dvec3> pixels(kWidth * kHeight);
-    Effort effort;
-    effort.relativeError = error;
-    effort.floor = glm::dvec3(0.05);
-    std::vector<std::thread> threads;
-    const int count = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    for (int t = 0; t < count; ++t)
-        threads.emplace_back([&, t] {
-            for (int y = t; y < kHeight; y += count)
-                for (int x = 0; x < kWidth; ++x)
-                    pixels[static_cast<size_t>(y * kWidth + x)] = integrator.at(x, y, effort, 1).total();
-        });
-    for (std::thread& thread : threads)
-        thread.join();
-    return pixels;
-}
-
-/// Mean of |difference| over the mean, and of the difference.
-std::pair<double, double> errorOf(const Image& image, const std::vector<glm::dvec3>& truths) {
-    double off = 0.0, bias = 0.0, sum = 0.0;
-    for (size_t i = 0; i < truths.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const float value = image.values[i * image.channelCount() + static_cast<size_t>(c)];
-            EXPECT_TRUE(std::isfinite(value) && value >= 0.0F);
-            off += std::abs(static_cast<double>(value) - truths[i][c]);
-            bias += static_cast<double>(value) - truths[i][c];
-            sum += truths[i][c];
-        }
-    return {off / sum, bias / sum};
+    return truthOf(scene, camera(), kWidth, kHeight, error, shadows);
 }
 
 class EnvironmentPicture : public testing::TestWithParam<Surface> {};

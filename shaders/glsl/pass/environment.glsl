@@ -36,6 +36,10 @@ vec3 environment_mirrored(LightReceiver r, MODEL_PARAMS params)
 
 #ifdef ENVIRONMENT_PREFILTERED
 #include "common/octahedral.glsl"
+#if defined(OCCLUSION_TEXTURES) || defined(AMBIENT_OCCLUSION)
+#define ENVIRONMENT_OCCLUDED
+#include "pass/occlusion.glsl"
+#endif
 
 const float ENVIRONMENT_ANGLES = 40.0;  // of the table, at equal steps of sqrt(N.V)
 
@@ -112,7 +116,12 @@ vec3 environment_prefiltered(LightReceiver r, MODEL_PARAMS params)
 #endif
     vec4 first = environment_table(0.0, place);
     vec3 n = uEnvFromWorld * r.frame.n;
+#ifdef ENVIRONMENT_OCCLUDED
+    OpenCone open = occlusion_cone(r.frame.n);
+    vec3 sum = weights.lambert * first.a * open.share * environment_irradiance(uEnvFromWorld * normalize(open.axis + r.frame.n));
+#else
     vec3 sum = weights.lambert * first.a * environment_irradiance(n);
+#endif
 #if ENVIRONMENT_TERMS > 0
     vec3 albedo = weights.first * first.rgb;
 #if ENVIRONMENT_TERMS > 1
@@ -121,7 +130,12 @@ vec3 environment_prefiltered(LightReceiver r, MODEL_PARAMS params)
     vec3 middle = environment_table(2.0, place).rgb;
     vec3 across = r.wo.z * r.frame.n - r.wo_w;  // of length sin(theta)
     across *= inversesqrt(max(dot(across, across), 1e-20));
-    vec3 d = uEnvFromWorld * (middle.x * across + middle.y * r.frame.n);
+    vec3 d_w = middle.x * across + middle.y * r.frame.n;
+    vec3 d = uEnvFromWorld * d_w;
+#ifdef ENVIRONMENT_OCCLUDED
+    float roughness = model_roughness(params);
+    albedo *= occlusion_of_lobe(open, normalize(d_w), clamp(roughness * roughness, 0.0, 1.0));
+#endif
     sum += albedo * environment_layers(d, middle.z);
 #endif
     return sum * uEnvLightScale;

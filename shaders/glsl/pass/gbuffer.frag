@@ -16,6 +16,9 @@ layout(location = OUT_GEOMETRIC_NORMAL) out vec2 oGeometricNormal;
 #if defined(OUT_TANGENT) && !defined(UNLIT)
 layout(location = OUT_TANGENT) out float oTangent;
 #endif
+#if defined(OUT_OCCLUSION) && !defined(UNLIT)
+layout(location = OUT_OCCLUSION) out float oOcclusion;
+#endif
 #ifdef OUT_MATERIAL
 layout(location = OUT_MATERIAL) out uint oMaterial;
 uniform int uMaterial;
@@ -59,6 +62,9 @@ void main()
 #else
     oTangent = 0.0;
 #endif
+#endif
+#ifdef OUT_OCCLUSION
+    oOcclusion = surface_occlusion();
 #endif
     MODEL_PARAMS params = surface_params();
     gbuffer_write_params(params);

@@ -1,5 +1,6 @@
 /// gbuffer_read.glsl - the surface behind a pixel, from the G-buffer.
 #include "pass/gbuffer_normal.glsl"
+#define GBUFFER_READ
 
 uniform sampler2D uDepth;     // distance along the view axis where LINEAR_Z, else the reversed depth buffer
 uniform vec4 uDepthToZ;       // z = (x + y d) / (z + w d)
