@@ -35,7 +35,7 @@ struct ReportArguments {
     int settings = 40;
     double seconds = 480.0;
     double truthSeconds = 120.0;
-    std::string truth = "converged", metric = "relmse", against, from, cost;
+    std::string truth, metric = "relmse", against, from, cost;
     bool quiet = false;
 };
 
@@ -50,8 +50,8 @@ void addOptions(CLI::App& app, ReportArguments& r) {
         ->type_name("S")
         ->check(CLI::Range(1.0, 1e6));
     app.add_option("--truth", r.truth,
-                   "converged: this engine with 64 samples; reference: double precision, with shadows; "
-                   "unshadowed: the same of the scene without shadows [converged]")
+                   "reference: double precision, with shadows; unshadowed: the same of the scene without shadows; "
+                   "converged: this engine with 64 samples [reference; converged for models from GLSL files]")
         ->type_name("NAME")
         ->check(CLI::IsMember({"converged", "reference", "unshadowed"}));
     app.add_option("--truth-time", r.truthSeconds, "how long to compute a reference at most [120], s")
@@ -206,7 +206,9 @@ json measureReport(const Work& work, gl::Context& context) {
     const ReportArguments& arguments = work.arguments;
     const measure::TruthSource truth =
         arguments.truth == "converged" ? measure::convergedTruth(context)
-                                       : measure::referenceTruth(arguments.truthSeconds, work.interrupted);
+        : arguments.truth.empty()
+            ? measure::bestTruth(context, arguments.truthSeconds, work.interrupted)
+            : measure::referenceTruth(arguments.truthSeconds, work.interrupted);
     measure::ReportEvents events = eventsOf(work);
     events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
     events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };

@@ -1,5 +1,6 @@
 #include "measure/truth.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -94,6 +95,18 @@ TruthSource referenceTruth(double seconds, const std::atomic<bool>& stop) {
             truth.seconds = secondsSince(start);
             return truth;
         };
+}
+
+TruthSource bestTruth(gl::Context& context, double seconds, const std::atomic<bool>& stop) {
+    return [reference = referenceTruth(seconds, stop), converged = convergedTruth(context)](
+               const std::shared_ptr<const Scene>& scene, const Camera& camera, int width, int height) {
+        const bool twins =
+            std::all_of(scene->materials.begin(), scene->materials.end(), [](const Material& material) {
+                const Brdf* brdf = findBrdf(material.brdf);
+                return brdf == nullptr || brdf->fCos != nullptr;
+            });
+        return (twins ? reference : converged)(scene, camera, width, height);
+    };
 }
 
 }  // namespace lobe::measure

@@ -33,4 +33,7 @@ TruthSource convergedTruth(gl::Context& context);
 /// UsageError for a model without a twin.
 TruthSource referenceTruth(double seconds, const std::atomic<bool>& stop);
 
+/// The reference, or, of a scene with a model without a twin, the converged picture.
+TruthSource bestTruth(gl::Context& context, double seconds, const std::atomic<bool>& stop);
+
 }  // namespace lobe::measure
