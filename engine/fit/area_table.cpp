@@ -14,6 +14,8 @@ namespace {
 constexpr size_t kFitDraws = 512;      // of each search
 constexpr size_t kWeightDraws = 2048;  // of weights and albedos
 constexpr int kWidthNodes = 28;
+/// Of metals with exact Fresnel equations up to 0.051, which are fitted well; beyond, one shape does not hold all.
+constexpr double kMostColorDistance = 0.055;
 
 /// What one fit stands for: a term on its own, or all terms with the material's colours.
 struct Target {
@@ -158,10 +160,38 @@ std::vector<Target> targetsOf(const TableRequest& request, const ParameterValues
 std::optional<std::string> refusal(const TableRequest& request) {
     const Brdf& brdf = *request.brdf;
     if (!brdf.area) return "no fit serves " + brdf.name;
-    if (!brdf.area->refuses) return {};
-    const std::string reason = brdf.area->refuses(request.values);
-    if (reason.empty()) return {};
-    return reason;
+    if (brdf.area->refuses)
+        if (const std::string reason = brdf.area->refuses(request.values); !reason.empty()) return reason;
+    if (brdf.area->terms == 0 || request.colorsVary || huesDiffer(brdf, request.values)) return {};
+    const double apart = colorDistance(brdf, request.values);
+    if (apart <= kMostColorDistance) return {};
+    return "its colours' lobes differ in shape, by " + std::to_string(std::lround(100.0 * apart)) +
+           " % of their light";
+}
+
+double colorDistance(const Brdf& brdf, std::span<const double> values) {
+    static const std::vector<glm::dvec3> draws = spreadDraws(256);
+    const AreaWeights weights = brdf.area->weights(values);
+    double most = 0.0;
+    for (double degrees : {0.0, 30.0, 60.0, 75.0}) {
+        const double sine = std::sin(0.5 * glm::radians(degrees));
+        std::vector<glm::dvec3> light;
+        glm::dvec3 albedo(0.0);
+        for (const TermSample& s : sampleTerms(brdf, values, View(2.0 * sine * sine), draws)) {
+            light.push_back((weights.terms[0] * s.terms.terms[0] + weights.terms[1] * s.terms.terms[1]) /
+                            s.density);
+            albedo += light.back();
+        }
+        const double all = albedo.r + albedo.g + albedo.b;
+        for (int c = 0; c < 3; ++c) {
+            if (!(albedo[c] > 0.0)) continue;
+            double apart = 0.0;
+            for (const glm::dvec3& sample : light)
+                apart += std::abs(sample[c] / albedo[c] - (sample.r + sample.g + sample.b) / all);
+            most = std::max(most, 0.5 * apart);
+        }
+    }
+    return most;
 }
 
 TableRequest normalised(TableRequest request) {

@@ -36,6 +36,10 @@ TableRequest normalised(TableRequest request);
 /// colours are then wrong in each, and one fit a term is made (`colorsVary`).
 bool huesDiffer(const Brdf& brdf, std::span<const double> values);
 
+/// The largest distance of a colour's lobe from the mean of the colours', each of them of albedo 1: half the
+/// integral of the absolute difference, over angles of view to 75 degrees.
+double colorDistance(const Brdf& brdf, std::span<const double> values);
+
 /// Texels of its table.
 int tableTexels(const TableRequest& request);
 

@@ -14,7 +14,8 @@ struct TruthRequest {
     int width = 1280, height = 720;
     TruthOptions options;
     double relativeError = 0.002;  ///< standard error wanted of each pixel, of its radiance and half the mean
-    std::optional<double> seconds;  ///< stop when they are over, with what was reached by then
+    /// Stop when they are over, with what was reached by then, but not before each pixel has been looked at.
+    std::optional<double> seconds;
     long long mostRays = 1 << 22;   ///< a pixel, beyond which it is left as it is
     unsigned threads = 0;           ///< 0: one a core
 };
