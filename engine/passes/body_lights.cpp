@@ -66,8 +66,8 @@ void BodyLights::update(const View& view, int frame) {
             push(data, light.axis, a);
             push(data, light.direction, b);
             if (hasImages_ && light.type == LightType::rect) {
-                const glm::dvec4 place = light.image >= 0 ? images_.place(light.image) : glm::dvec4(0.0);
-                push(data, place, place.w);
+                const glm::dvec4 name = images_.nameOf(light);
+                push(data, name, name.w);
             }
         }
         buffers_[i] = gl::makeTextureBuffer(GL_RGBA32F, data.data(), data.size() * sizeof(float));

@@ -51,8 +51,8 @@ glm::dvec3 LightImage::at(const glm::dvec2& place) const {
                     v - y);
 }
 
-LightImage LightImage::halved() const {
-    LightImage result(std::max(width_ / 2, 1), std::max(height_ / 2, 1));
+LightImage LightImage::reduced(int width, int height) const {
+    LightImage result(std::min(width, width_), std::min(height, height_));
     std::vector<Cover> columns;
     for (int x = 0; x < result.width_; ++x)
         columns.push_back(coverOf(x, result.width_, width_));

@@ -24,8 +24,8 @@ public:
     /// the top, as it is seen from the side that emits.
     glm::dvec3 at(const glm::dvec2& place) const;
 
-    /// Of half the size, rounded down, at least 1 a side: means over the area that texels cover.
-    LightImage halved() const;
+    /// Of at most this size: means over the area that texels cover.
+    LightImage reduced(int width, int height) const;
 
     /// Three values a texel, row by row from the top.
     const std::vector<float>& values() const { return values_; }

@@ -58,21 +58,24 @@ TEST(LightImage, BilinearBetweenCentresAndFlatBeyondThem) {
     EXPECT_EQ(LightImage(floats(1, 1, 1, {7})).at({0.9, 0.1}).x, 7.0);
 }
 
-TEST(LightImage, HalvesKeepTheMeanOfEverySize) {
-    for (const auto& [width, height] : {std::pair(8, 8), std::pair(7, 5), std::pair(1, 9), std::pair(13, 1), std::pair(2, 3)}) {
+TEST(LightImage, ReducedItKeepsItsMean) {
+    for (const auto& [width, height] :
+         {std::pair(8, 8), std::pair(7, 5), std::pair(1, 9), std::pair(13, 1), std::pair(2, 3)}) {
         std::vector<float> values;
         for (int i = 0; i < width * height; ++i)
             values.push_back(static_cast<float>((i * 37) % 11));
-        LightImage image(floats(width, height, 1, values));
+        const LightImage image(floats(width, height, 1, values));
         const double mean = meanOf(image);
-        while (image.width() > 1 || image.height() > 1) {
-            const int w = image.width(), h = image.height();
-            image = image.halved();
-            EXPECT_EQ(image.width(), std::max(w / 2, 1));
-            EXPECT_EQ(image.height(), std::max(h / 2, 1));
-            EXPECT_NEAR(meanOf(image), mean, 1e-5 * mean) << width << " x " << height;
+        for (const int parts : {1, 2, 4, 8}) {
+            const LightImage less = image.reduced(parts, parts);
+            EXPECT_EQ(less.width(), std::min(width, parts));
+            EXPECT_EQ(less.height(), std::min(height, parts));
+            EXPECT_NEAR(meanOf(less), mean, 1e-5 * mean) << width << " x " << height;
         }
     }
+    const LightImage quarters = LightImage(floats(3, 1, 1, {3, 6, 9})).reduced(2, 2);
+    EXPECT_FLOAT_EQ(quarters.values()[0], 4.0F);  // (3 + 6 / 2) / 1.5
+    EXPECT_FLOAT_EQ(quarters.values()[3], 8.0F);
 }
 
 TEST(LightImage, PlacesAreFromTheTopLeftAsSeenFromTheSideThatEmits) {

@@ -1,48 +1,74 @@
-/// light_image.glsl - pictures on rect lights: themselves, their halves, and their mean as a lobe sees them.
+/// light_image.glsl - pictures on rect lights: themselves, their means over parts, and their mean as a lobe sees them.
 ///
 /// value  factors of the light's radiance, linear, no unit
-/// params image: corner and size, in texels, of its place in the atlas: the picture itself, its halves to the right of it
-///        (engine/passes/light_atlas.hpp); place: 0..1 from the left and the top, as it is seen from the side that emits
+/// params place: 0..1 from the left and the top, as it is seen from the side that emits; levels: 0 is the mean of all, each has
+///        twice as many parts along each side as the one before, but along a long rect's shorter side only from some level
+///        on; the last is the picture itself
 /// domain places beyond the edges are taken at them
 /// source light_image_mean(): midpoints in the directions about a line along the rect's height: angle about it, and sine of
 ///        the angle to the plane across it, in which nothing but the lobe itself varies (Arvo 1995; Urena, Fajardo, King
 ///        2013), denser where the lobe points; each sees the picture blurred by its cell
 /// error  of the mean: docs/area_lights.md
-/// twin   engine/scene/light_image.cpp
+/// twin   engine/scene/light_image.cpp; of the places in the atlas engine/passes/light_atlas.cpp
 #include "common/constants.glsl"
 #include "common/numeric.glsl"
 #include "light/area.glsl"
 
 uniform sampler2D uLightImages;
 
-float light_image_levels(vec4 image) { return floor(log2(max(image.z, image.w) + 0.5)); }
+/// Where a picture is in the atlas, in texels.
+struct LightImage {
+    vec2 corner;
+    ivec2 size;
+    int turn;      // log4 of how many times wider than high the rect is, rounded, -2..2
+    ivec2 behind;  // levels that have one part along this side
+    ivec2 full;    // levels from there on until there are as many parts as texels
+    int last;      // the picture itself
+};
 
-/// Level 0: the picture itself.
-vec3 light_image_level(vec4 image, vec2 place, int level)
+/// A picture as lights name it: corner, with the turn in eighths and the levels until full in 256ths, and size; no size:
+/// none.
+LightImage light_image_of(vec4 named)
 {
-    ivec2 whole = ivec2(image.zw);
-    ivec2 corner = level == 0 ? ivec2(0) : ivec2(whole.x, 0) + whole - (whole >> (level - 1));
-    vec2 size = vec2(max(whole >> level, ivec2(1)));
-    vec2 texel = image.xy + vec2(corner) + clamp(place * size, vec2(0.5), size - 0.5);
+    LightImage image;
+    image.corner = floor(named.xy);
+    image.size = ivec2(named.zw);
+    image.turn = int(fract(named.x) * 8.0 + 0.5) - 2;
+    image.behind = max(ivec2(-2, 2) * image.turn, ivec2(0));
+    int full = int(fract(named.y) * 256.0 + 0.5);
+    image.full = ivec2(full / 16, full % 16);
+    image.last = max(image.full.x + image.behind.x, image.full.y + image.behind.y);
+    return image;
+}
+
+vec3 light_image_level(LightImage image, vec2 place, int level)
+{
+    bool whole = level >= image.last;
+    ivec2 from = level - image.behind;
+    vec2 size = vec2(min(image.size, ivec2(1) << clamp(from, ivec2(0), image.full)));
+    // Levels are beside the picture, one below the other.
+    int above = min(level, image.behind.y) + (1 << clamp(from.y, 0, image.full.y)) - 1 + max(from.y - image.full.y, 0) * image.size.y;
+    vec2 corner = image.corner + (whole ? vec2(0.0) : vec2(image.size.x, above));
+    vec2 texel = corner + clamp(place * size, vec2(0.5), size - 0.5);
     return textureLod(uLightImages, texel / vec2(textureSize(uLightImages, 0)), 0.0).rgb;
 }
 
 /// Between levels, too.
-vec3 light_image_blurred(vec4 image, vec2 place, float level)
+vec3 light_image_blurred(LightImage image, vec2 place, float level)
 {
-    float most = light_image_levels(image);
-    float at = clamp(level, 0.0, most);
-    float low = min(floor(at), max(most - 1.0, 0.0));
-    return mix(light_image_level(image, place, int(low)), light_image_level(image, place, int(min(low + 1.0, most))),
-               at - low);
+    float at = clamp(level, 0.0, float(image.last));
+    int low = min(int(at), max(image.last - 1, 0));
+    return mix(light_image_level(image, place, low), light_image_level(image, place, min(low + 1, image.last)),
+               at - float(low));
 }
 
 /// The picture itself, with weights as exact as floats are.
-vec3 light_image_sharp(vec4 image, vec2 place)
+vec3 light_image_sharp(LightImage image, vec2 place)
 {
-    vec2 at = clamp(place * image.zw - 0.5, vec2(0.0), image.zw - 1.0);
+    vec2 most = vec2(image.size) - 1.0;
+    vec2 at = clamp(place * vec2(image.size) - 0.5, vec2(0.0), most);
     vec2 low = floor(at), share = at - low;
-    ivec2 a = ivec2(image.xy + low), b = ivec2(image.xy + min(low + 1.0, image.zw - 1.0));
+    ivec2 a = ivec2(image.corner + low), b = ivec2(image.corner + min(low + 1.0, most));
     vec3 top = mix(texelFetch(uLightImages, a, 0).rgb, texelFetch(uLightImages, ivec2(b.x, a.y), 0).rgb, share.x);
     vec3 bottom = mix(texelFetch(uLightImages, ivec2(a.x, b.y), 0).rgb, texelFetch(uLightImages, b, 0).rgb, share.x);
     return mix(top, bottom, share.y);
@@ -81,17 +107,13 @@ vec2 light_image_node(LightImageSpread s, float share, float count)
     return vec2(s.center + s.scale * q * w, s.scale * w * w * w * s.range / count);
 }
 
-/// Nodes along each side.
-#ifndef LIGHT_IMAGE_NODES
-#define LIGHT_IMAGE_NODES 4
-#endif
-
 /// Mean of the picture, each direction weighted by cos^k of its angle to z: the rect is `center` + x `u` + y `v`, x and y
 /// in -1..1, its left where x = 1 and its top where y = -1. `heights` of these over the surface's horizon: only what is
 /// above it counts.
-vec3 light_image_mean(vec4 image, vec3 center, vec3 u, vec3 v, float k, vec3 heights)
+vec3 light_image_mean(LightImage image, vec3 center, vec3 u, vec3 v, float k, vec3 heights)
 {
-    float most = light_image_levels(image);
+    // 16 in all, more along the longer side, and the same for all who see the rect.
+    ivec2 nodes = ivec2(1 << (2 + image.turn), 1 << (2 - image.turn));
     float lv = max(length(v), 1e-30);
     vec3 along = v / lv;
     float slant = dot(u, along);
@@ -109,7 +131,11 @@ vec3 light_image_mean(vec4 image, vec3 center, vec3 u, vec3 v, float k, vec3 hei
     vec2 axis = vec2(dot(vec3(0.0, 0.0, 1.0), en), et.z);
     float axis_across = length(axis);
     float least = atan(c_t - lu, h), greatest = atan(c_t + lu, h);
-    float breadth = k > 1.5 ? 2.0 : 3.0;
+    bool broad = k < 1.5;
+    float breadth = broad ? 3.0 : 2.0;
+    // Linear filters reach farther than the cells' boxes: what is best differs with how fast a lobe falls off.
+    float sharper = broad ? 0.0 : 0.5;
+    vec2 count = vec2(nodes);
 
     float peak = axis_across > 1e-6 ? atan(axis.y, axis.x) : 0.5 * (least + greatest);
     float nearest = clamp(peak, least, greatest);
@@ -124,10 +150,9 @@ vec3 light_image_mean(vec4 image, vec3 center, vec3 u, vec3 v, float k, vec3 hei
 
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    const float COUNT = float(LIGHT_IMAGE_NODES);
     int i = 0;
     do {
-        vec2 angle = light_image_node(about, (float(i) + 0.5) / COUNT, COUNT);
+        vec2 angle = light_image_node(about, (float(i) + 0.5) / count.x, count.x);
         turn = vec2(cos(angle.x), sin(angle.x));
         reach = h / max(turn.x, 1e-6);
         float x = clamp((reach * turn.y - c_t) / lu, -1.0, 1.0);
@@ -143,7 +168,7 @@ vec3 light_image_mean(vec4 image, vec3 center, vec3 u, vec3 v, float k, vec3 hei
         LightImageSpread rise = light_image_spread(top, ends.x, ends.y, width, breadth);
         int j = 0;
         do {
-            vec2 node = light_image_node(rise, (float(j) + 0.5) / COUNT, COUNT);
+            vec2 node = light_image_node(rise, (float(j) + 0.5) / count.y, count.y);
             float s = clamp(node.x, -0.9999999, 0.9999999);
             float c = sqrt((1.0 - s) * (1.0 + s));
             float y = clamp((reach * s / c - off) / lv, -1.0, 1.0);
@@ -151,14 +176,14 @@ vec3 light_image_mean(vec4 image, vec3 center, vec3 u, vec3 v, float k, vec3 hei
             float cosine = b * c + along.z * s;
             float density = k == 1.0 ? max(cosine, 0.0) : cosine > 0.0 ? numeric_exp(k * numeric_log(max(cosine, 1e-30))) : 0.0;
             float weight = heights.x + x * heights.y + y * heights.z > 0.0 ? density * angle.y * node.y : 0.0;
-            // A cell's blur; linear filters reach farther than boxes.
-            vec2 cell = 0.5 * vec2(wide, high) * image.zw;
-            float level = min(log2(max(max(cell.x, cell.y), 1e-3)) - 0.5, most);
+            // A cell's blur.
+            vec2 levels = vec2(image.behind) - log2(max(0.5 * vec2(wide, high), vec2(1e-9)));
+            float level = sharper + min(levels.x, levels.y);
             sum += weight * light_image_blurred(image, vec2(0.5 - 0.5 * x, 0.5 + 0.5 * y), level);
             weights += weight;
-        } while (++j < LIGHT_IMAGE_NODES);
-    } while (++i < LIGHT_IMAGE_NODES);
-    vec3 whole = light_image_level(image, vec2(0.5), int(most));
+        } while (++j < nodes.y);
+    } while (++i < nodes.x);
+    vec3 whole = light_image_level(image, vec2(0.5), 0);
     // Seen under so small an angle that the lobe is the same all over it.
     float extent = lu + abs(slant) + lv;
     bool small = extent * extent * (k + 3.0) < 1e-6 * dot(center, center);

@@ -81,39 +81,12 @@ vec2 area_folded(vec2 u) { return 1.0 - abs(2.0 * u - 1.0); }
 /// Of a square whose second side is an angle.
 vec2 area_folded_polar(vec2 u) { return vec2(1.0 - abs(2.0 * u.x - 1.0), u.y); }
 
-#ifdef RECT_IMAGES
-uniform float uAreaPointsEver;  // in all jittered frames
-
-/// What comes from a point of a light, of its radiance.
-vec3 area_emitted(int type, AreaLight light, AreaSample s)
-{
-    if (type == AREA_RECT && light.image.z > 0.0) {
-        // Blurred by the part of the rect that one of all the points stands for.
-        float cosine = max(-dot(s.direction, light.facing), 1e-7);
-        float part = s.solid_angle * s.distance * s.distance / (cosine * uAreaPointsEver * 4.0 * light.a * light.b);
-        float level = 0.5 * log2(clamp(part, 1e-20, 1.0) * light.image.z * light.image.w);
-        vec2 place = light_image_place(s.direction * s.distance - light.center, light.axis, light.facing, light.a, light.b);
-        return light_image_blurred(light.image, place, level);
-    }
-    return vec3(1.0);
-}
-#endif
-
 /// Sums over points: what all of them would reflect, and what arrives of it.
 struct AreaTally { vec3 lit, seen; };
 
-vec3 area_point_reflected(int type, AreaSample s, AreaLight light, LightReceiver r, MODEL_PARAMS params)
+/// `f`: what a point reflects.
+void area_count(inout AreaTally tally, vec3 f, AreaSample s, AreaLight light, LightReceiver r)
 {
-    vec3 f = light_reflected(r, params, s.direction) * s.solid_angle;
-#ifdef RECT_IMAGES
-    f *= area_emitted(type, light, s);
-#endif
-    return f;
-}
-
-void area_count(int type, inout AreaTally tally, AreaSample s, AreaLight light, LightReceiver r, MODEL_PARAMS params)
-{
-    vec3 f = area_point_reflected(type, s, light, r, params);
 #ifdef AREA_ANALYTIC
     tally.lit += f;
 #endif
@@ -180,8 +153,8 @@ void area_offer(inout AreaNearest nearest, int type, samplerBuffer lights, int f
             nearest = AreaNearest(distance, light.radiance, light.slot, type);
 #ifdef RECT_IMAGES
             if (type == AREA_RECT && light.image.z > 0.0)
-                nearest.radiance *= light_image_sharp(light.image, light_image_place(direction * distance - light.center, light.axis,
-                                                                                     light.facing, light.a, light.b));
+                nearest.radiance *= light_image_sharp(light_image_of(light.image), light_image_place(direction * distance - light.center, light.axis,
+                                                                                                     light.facing, light.a, light.b));
 #endif
         }
     } while (++i < end);
@@ -247,24 +220,55 @@ AreaSample area_sample(int type, AreaView v, vec2 u)
     return area_tube_sample(v.tube, area_folded(u));
 }
 
+#ifdef RECT_IMAGES
+uniform float uAreaPointsEver;  // in all jittered frames
+
+/// What comes from a point of a rect, of its radiance: the picture blurred by the part of it that one of all the points
+/// stands for.
+vec3 area_image(AreaLight light, AreaRectView view, vec2 u, AreaSample s)
+{
+    float cosine = max(-dot(s.direction, light.facing), 1e-7);
+    float part = s.solid_angle * s.distance * s.distance / (cosine * uAreaPointsEver * 4.0 * light.a * light.b);
+    LightImage image = light_image_of(light.image);
+    float level = float(abs(image.turn)) - 0.5 * log2(clamp(part, 1e-20, 1.0));
+    // Where it is so small that offsets would cancel, points are even in area.
+    vec2 place = view.spherical ? light_image_place(s.direction * s.distance - light.center, light.axis, light.facing, light.a, light.b)
+                                : vec2(1.0 - u.x, u.y);
+    return light_image_blurred(image, place, level);
+}
+#endif
+
+/// A point of a light, and what it reflects.
+vec3 area_point_reflected(int type, AreaView view, vec2 u, AreaLight light, LightReceiver r, MODEL_PARAMS params, out AreaSample s)
+{
+    s = area_sample(type, view, u);
+    vec3 f = light_reflected(r, params, s.direction) * s.solid_angle;
+#ifdef RECT_IMAGES
+    if (type == AREA_RECT && light.image.z > 0.0)
+        f *= area_image(light, view.rect, area_folded(u), s);
+#endif
+    return f;
+}
+
 AreaTally area_points(int type, int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
 {
     AreaView view = area_view(type, light);
     uvec2 shift = area_shift(i, type);
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
-    do
-        area_count(type, tally, area_sample(type, view, area_point(shift, point)), light, r, params);
-    while (++point < uAreaPointsEnd);
+    AreaSample s;
+    do {
+        vec3 f = area_point_reflected(type, view, area_point(shift, point), light, r, params, s);
+        area_count(tally, f, s, light, r);
+    } while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
     // Other draws count the rest of what arrives; what is lit is that of all points.
     tally.lit = vec3(0.0);
     point = 0;
-    do {
-        AreaSample s = area_sample(type, view, area_point(shift, point));
-        tally.lit += area_point_reflected(type, s, light, r, params);
-    } while (++point < uAreaPointsAll);
+    do
+        tally.lit += area_point_reflected(type, view, area_point(shift, point), light, r, params, s);
+    while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
 #endif
     return tally;

@@ -14,7 +14,7 @@ struct AreaLight {
     vec3 radiance;  // with the window of its range
     float slot;     // of its shadow; -1: casts none
 #ifdef RECT_IMAGES
-    vec4 image;     // of a rect: its place in the atlas, texels; no size: none
+    vec4 image;     // of a rect: as light_image_of() takes it
 #endif
 };
 
@@ -58,9 +58,10 @@ vec3 area_reflected_image(AreaLight light, LightReceiver r)
     float scale = 1.0 / max(max(area_largest(center), area_largest(half_u)), max(area_largest(half_v), 1e-30));
     vec3 c = center * scale, u = half_u * scale, v = half_v * scale;
     vec3 heights = vec3(c.z, u.z, v.z);
+    LightImage image = light_image_of(light.image);
     vec3 sum = area_surface.lambert * area_rect_factor(center, half_u, half_v, facing);
     if (any(greaterThan(sum, vec3(0.0))))
-        sum *= light_image_mean(light.image, c, u, v, 1.0, heights);
+        sum *= light_image_mean(image, c, u, v, 1.0, heights);
 #if LOBE_COUNT > 0
     if (dot(center, facing) < 0.0) {
         LobeFit fit = area_surface.fit;
@@ -70,7 +71,7 @@ vec3 area_reflected_image(AreaLight light, LightReceiver r)
         do {
             vec3 part = fit.lobes[i].weight * lobe_share(s, fit, i, vc, length(u) + length(v));
             if (any(greaterThan(abs(part), vec3(0.0))))
-                part *= light_image_mean(light.image, lobe_map(fit.lobes[i], vc), lobe_map(fit.lobes[i], vu),
+                part *= light_image_mean(image, lobe_map(fit.lobes[i], vc), lobe_map(fit.lobes[i], vu),
                                          lobe_map(fit.lobes[i], vv), fit.lobes[i].k, heights);
             sum += part;
         } while (++i < LOBE_COUNT);
