@@ -63,6 +63,9 @@ TEST_P(ImagePicture, UnshadowedAgreesWithTheReference) {
         const Error sampled = compareWith(drawn(made, quality), truths);
         print((model + " " + std::to_string(points) + " points").c_str(), sampled);
         EXPECT_FALSE(sampled.bad);
+        if (points == 16) {
+            EXPECT_LT(sampled.mean, 0.1);
+        }
         if (points == 256) {
             EXPECT_LT(sampled.mean, 6e-3);
             EXPECT_LT(sampled.rms, 0.35 * before);
@@ -93,6 +96,33 @@ TEST_P(ImagePicture, ShadowedAgreesWithTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, ImagePicture, testing::Values("lambert", "ggx", "phong"));
+
+/// Lobes alone, without Lambert's part, from broad to narrow. What the fit itself is off by is seen without a picture.
+TEST(ImagePictures, LobesShowThePictureAsWellAsTheyShowTheLight) {
+    struct Case {
+        const char* model;
+        const char* width;
+        double value, allowed;
+    };
+    for (const Case& one : {Case{"phong", "shininess", 5, 0.05}, Case{"phong", "shininess", 50, 0.05}, Case{"phong", "shininess", 500, 0.08},
+                            Case{"ward", "alpha", 0.3, 0.05}, Case{"ward", "alpha", 0.1, 0.08}, Case{"cook_torrance", "m", 0.2, 0.08}}) {
+        Scene shown = litBy(one.model, 12, 8, panes);
+        for (Material& material : shown.materials) {
+            test::setParameter(material, "diffuse", glm::dvec3(0.0));
+            test::setParameter(material, "specular", glm::dvec3(1.0));
+            test::setParameter(material, one.width, glm::dvec3(one.value));
+        }
+        Scene plain = shown;
+        plain.lights[0].image = -1;
+        const Error with = compareWith(drawn(shown, exact()), truth(shown, false, 5e-3));
+        const Error without = compareWith(drawn(plain, exact()), truth(plain, false, 5e-3));
+        const std::string name = std::string(one.model) + " " + std::to_string(one.value);
+        print((name + " with the picture").c_str(), with);
+        print("    without", without);
+        EXPECT_FALSE(with.bad);
+        EXPECT_LT(with.mean, without.mean + one.allowed) << name;
+    }
+}
 
 /// One colour all over is a light of that colour, to the last digits, by every method.
 TEST(ImagePictures, OneColorIsALightOfThatColor) {

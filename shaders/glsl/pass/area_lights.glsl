@@ -230,7 +230,7 @@ vec3 area_image(AreaLight light, AreaRectView view, vec2 u, AreaSample s)
     float cosine = max(-dot(s.direction, light.facing), 1e-7);
     float part = s.solid_angle * s.distance * s.distance / (cosine * uAreaPointsEver * 4.0 * light.a * light.b);
     LightImage image = light_image_of(light.image);
-    float level = float(abs(image.turn)) - 0.5 * log2(clamp(part, 1e-20, 1.0));
+    float level = float(abs(image.turn)) - 0.5 - 0.5 * log2(clamp(part, 1e-20, 1.0));
     // Where it is so small that offsets would cancel, points are even in area.
     vec2 place = view.spherical ? light_image_place(s.direction * s.distance - light.center, light.axis, light.facing, light.a, light.b)
                                 : vec2(1.0 - u.x, u.y);
