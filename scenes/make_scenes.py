@@ -27,6 +27,7 @@ SCENES = {
     "lights/disk": lights.disk_light,
     "lights/sphere": lights.sphere_light,
     "lights/tube": lights.tube_light,
+    "lights/screen": lights.screen,
     "lights/shadow_directional": lights.shadow_directional,
     "lights/shadow_point": lights.shadow_point,
     "lights/shadow_spot": lights.shadow_spot,
@@ -49,6 +50,7 @@ def main():
     for part in ("data", "lights"):
         models.merl_table(folder / part / "metallic_paint.binary", (32, 24), models.metallic_paint)
     (folder / "environment" / "directions.png").write_bytes(environment.directions())
+    (folder / "lights" / "window.png").write_bytes(lights.window_picture())
     for name, make in SCENES.items():
         make().write(folder / f"{name}.gltf")
     for name, scene in extreme.extreme():

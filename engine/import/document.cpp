@@ -159,6 +159,7 @@ const std::vector<std::string>& supportedExtensions() {
                                                  "LOBE_ambient",
                                                  "LOBE_environment",
                                                  "LOBE_fog",
+                                                 "LOBE_light_image",
                                                  "LOBE_light_shape",
                                                  "LOBE_materials_brdf",
                                                  "LOBE_shadow",

@@ -197,7 +197,10 @@ const ObjectSchema& rootExtensions() {
     static const ObjectSchema shape{{required("shape", oneOf(std::vector<std::string>{"sphere", "tube"})),
                                      required("radius", sizeInMetres()),
                                      optional("length", number(0.0, kLargestSize))}};
-    static const ObjectSchema lightExtensions{{optional(kLightShapeExtension, objectOf(shape))}};
+    static const ObjectSchema image{{required("image", text())}};
+    static const ObjectSchema lightExtensions{
+        {optional(kLightShapeExtension, objectOf(shape)), optional(kLightImageExtension, objectOf(image))}};
+    static const ObjectSchema areaLightExtensions{{optional(kLightImageExtension, objectOf(image))}};
     static const ObjectSchema light{
         {optional("name", text()),
          required("type", oneOf(std::vector<std::string>{"directional", "point", "spot"})),
@@ -210,7 +213,8 @@ const ObjectSchema& rootExtensions() {
                                          required("type", oneOf(std::vector<std::string>{"rect", "disk"})),
                                          optional("color", arrayOf(number(0.0, kLargest), 3, 3)),
                                          optional("intensity", number(0.0, kLargest)),
-                                         optional("size", sizeInMetres()), optional("rect", objectOf(rect))}};
+                                         optional("size", sizeInMetres()), optional("rect", objectOf(rect)),
+                                         optional("extensions", objectOf(areaLightExtensions))}};
     static const ObjectSchema areaLights{{required("lights", arrayOf(objectOf(areaLight)))}};
     static const ObjectSchema schema{
         {optional(kLightsExtension, objectOf(lights)), optional(kAreaLightsExtension, objectOf(areaLights))}};

@@ -12,6 +12,8 @@ inline constexpr const char* kLightsExtension = "KHR_lights_punctual";
 /// The same for EXT_lights_area.
 inline constexpr const char* kAreaLightsExtension = "EXT_lights_area";
 inline constexpr const char* kLightShapeExtension = "LOBE_light_shape";
+/// On a rect of EXT_lights_area: the picture that it shows.
+inline constexpr const char* kLightImageExtension = "LOBE_light_image";
 /// On a node: whether its light and its mesh cast shadows.
 inline constexpr const char* kShadowExtension = "LOBE_shadow";
 /// On a node: whether its light, which has a body, is seen.

@@ -56,7 +56,6 @@ public:
             addNode(static_cast<size_t>(node));
         }
         addImages();
-        addLights();
         scene.cameras = readCameras(document_, tree_, world_);
         warnOfRepairs();
         placeTables(scene.materials);
@@ -247,16 +246,26 @@ private:
         makeTangents(primitive, uvs);
     }
 
-    void addLights() {
+    void addLights(TextureTable& table) {
+        std::map<std::string, int> images;  // by URI: lights may share one
         for (PlacedLight& placed : readLights(document_, tree_, world_)) {
+            if (placed.image) {
+                const auto [known, added] = images.emplace(placed.image->uri, -1);
+                if (added) {
+                    known->second = table.addFile(placed.image->uri, placed.image->property);
+                }
+                placed.light.image = known->second;
+            }
             if (placed.visible) {
-                addBody(result_.scene, placed.light);
+                const bool image = placed.light.image >= 0;
+                addBody(result_.scene, placed.light, image ? table.addTexture(placed.light.image) : -1);
             }
             result_.scene.lights.push_back(std::move(placed.light));
         }
     }
 
-    /// Materials have indices into the file's textures until here; only those that are drawn are read.
+    /// Materials have indices into the file's textures until here; only those that are drawn are read. Lights come
+    /// here, as images belong to them.
     void addImages() {
         TextureTable table(document_);
         for (Material& material : result_.scene.materials) {
@@ -265,6 +274,7 @@ private:
             }
         }
         readSurroundings(document_, table, result_.scene);
+        addLights(table);
         result_.scene.textures = std::move(table.textures);
         for (const EncodedImage& image : table.images) {
             result_.scene.imageNames.push_back(image.name);

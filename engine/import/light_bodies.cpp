@@ -17,12 +17,14 @@ void addPoint(Primitive& body, const glm::dvec3& position, const glm::dvec3& nor
     body.normals.emplace_back(normal);
 }
 
-/// x: along `axis`, z: the way that the light goes.
+/// x: along `axis`, z: the way that the light goes. Its image's left is where x is largest, its top where y is least.
 Primitive rectBody(const Light& light) {
     Primitive body;
-    const double x = light.width / 2, y = light.height / 2;
-    for (const glm::dvec2& corner : {glm::dvec2(-x, -y), {x, -y}, {x, y}, {-x, y}})
-        addPoint(body, glm::dvec3(corner, 0.0), {0.0, 0.0, 1.0});
+    const glm::dvec2 half(light.width / 2, light.height / 2);
+    for (const glm::dvec2& corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+        addPoint(body, glm::dvec3(corner * half, 0.0), {0.0, 0.0, 1.0});
+        if (light.image >= 0) body.uvs[0].emplace_back(0.5 - 0.5 * corner.x, 0.5 + 0.5 * corner.y);
+    }
     body.indices = {0, 1, 2, 0, 2, 3};
     return body;
 }
@@ -62,11 +64,12 @@ Primitive roundBody(const Light& light) {
 
 }  // namespace
 
-void addBody(Scene& scene, const Light& light) {
+void addBody(Scene& scene, const Light& light, int texture) {
     Material material;
     material.name = light.name;
     material.brdf = "unlit";
     material.metallicRoughness.baseColor = radianceOf(light);
+    material.baseColorTexture.texture = texture;
     scene.materials.push_back(material);
 
     Primitive body = light.type == LightType::rect   ? rectBody(light)

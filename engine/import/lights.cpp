@@ -58,6 +58,20 @@ void readShape(const Document& document, const json& shape, const std::string& p
     }
 }
 
+/// LOBE_light_image. `source`: of the light, whose property is `property`.
+std::optional<NamedImage> readLightImage(const Document& document, const json& source, const std::string& property) {
+    const json* extension = findExtension(source, kLightImageExtension);
+    if (extension == nullptr) {
+        return std::nullopt;
+    }
+    const std::string place = property + ".extensions." + kLightImageExtension;
+    if (source["type"] != "rect") {
+        refuse(document.file, place, "on a light of type " + shown(source["type"]),
+               "a light of type \"rect\", of " + std::string(kAreaLightsExtension));
+    }
+    return NamedImage{(*extension)["image"], place + ".image"};
+}
+
 Light readPunctualLight(const Document& document, size_t index) {
     const json& source = document.json["extensions"][kLightsExtension]["lights"][index];
     const std::string property = propertyOf(kLightsExtension, index);
@@ -75,6 +89,7 @@ Light readPunctualLight(const Document& document, size_t index) {
     if (const json* shape = findExtension(source, kLightShapeExtension)) {
         readShape(document, *shape, property, light);
     }
+    readLightImage(document, source, property);  // refused on all of these
     return light;
 }
 
@@ -141,20 +156,22 @@ std::vector<PlacedLight> readLights(const Document& document, const NodeTree& tr
     std::vector<PlacedLight> lights;
     for (const int node : tree.drawn) {
         const auto index = static_cast<size_t>(node);
-        const auto place = [&](Light light) {
+        const auto place = [&](Light light, std::optional<NamedImage> image) {
             const glm::dquat& rotation = world.rotations[index];
             light.position = glm::dvec3(world.transforms[index][3]);
             light.direction = glm::normalize(rotation * glm::dvec3(0.0, 0.0, -1.0));
             light.castsShadow = castsShadow(document, index);
             light.axis = glm::normalize(rotation * glm::dvec3(1.0, 0.0, 0.0));
             const bool visible = isToBeSeen(document, index, light);
-            lights.push_back({std::move(light), visible});
+            lights.push_back({std::move(light), visible, std::move(image)});
         };
         if (const auto light = lightOf(document, index, kLightsExtension)) {
-            place(readPunctualLight(document, *light));
+            place(readPunctualLight(document, *light), std::nullopt);
         }
         if (const auto light = lightOf(document, index, kAreaLightsExtension)) {
-            place(readAreaLight(document, *light, largestScale(world.transforms[index])));
+            const json& source = document.json["extensions"][kAreaLightsExtension]["lights"][*light];
+            place(readAreaLight(document, *light, largestScale(world.transforms[index])),
+                  readLightImage(document, source, propertyOf(kAreaLightsExtension, *light)));
         }
     }
     return lights;

@@ -1,6 +1,8 @@
 /// Lights, placed in the world.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "import/nodes.hpp"
@@ -8,9 +10,16 @@
 
 namespace lobe {
 
+/// The picture that a rect shows (LOBE_light_image), not yet read.
+struct NamedImage {
+    std::string uri;
+    std::string property;  ///< where the scene names it
+};
+
 struct PlacedLight {
-    Light light;
-    bool visible = false;  ///< its body is to be drawn (LOBE_visible_light)
+    Light light;                      ///< without image
+    bool visible = false;             ///< its body is to be drawn (LOBE_visible_light)
+    std::optional<NamedImage> image;  ///< of Light::image
 };
 
 /// One light a node that the scene shows: KHR_lights_punctual, points with a body by LOBE_light_shape, and

@@ -111,6 +111,13 @@ int TextureTable::addFile(const std::string& uri, const std::string& property) {
     return static_cast<int>(images.size()) - 1;
 }
 
+int TextureTable::addTexture(int image) {
+    Sampler sampler;
+    sampler.wrapS = sampler.wrapT = Wrap::clampToEdge;
+    textures.push_back({image, sampler});
+    return static_cast<int>(textures.size()) - 1;
+}
+
 Sampler TextureTable::sampler(int gltfSampler) const {
     Sampler sampler;
     if (gltfSampler < 0) {

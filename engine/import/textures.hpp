@@ -22,6 +22,9 @@ public:
     /// the scene names it. Throws InputError if it can't be read.
     int addFile(const std::string& uri, const std::string& property);
 
+    /// The scene's index of a texture that shows an image, by its index in `images`, up to its edges.
+    int addTexture(int image);
+
     std::vector<Texture> textures;
     std::vector<EncodedImage> images;
 

@@ -43,7 +43,8 @@ std::string uniform(LightType type, const char* what) {
 
 }  // namespace
 
-BodyLights::BodyLights(const Scene& scene, const FramePlan& plan) {
+BodyLights::BodyLights(const Scene& scene, const FramePlan& plan)
+    : images_(scene, plan), hasImages_(plan.lightImages), frames_(plan.samples) {
     for (const Light& light : scene.lights)
         if (!isPunctual(light.type))
             lights_[static_cast<size_t>(light.type) - static_cast<size_t>(LightType::rect)].push_back(&light);
@@ -64,6 +65,10 @@ void BodyLights::update(const View& view, int frame) {
             push(data, radianceOf(light), shadows_[i] && light.castsShadow ? casting++ : -1);
             push(data, light.axis, a);
             push(data, light.direction, b);
+            if (hasImages_ && light.type == LightType::rect) {
+                const glm::dvec4 name = images_.nameOf(light);
+                push(data, name, name.w);
+            }
         }
         buffers_[i] = gl::makeTextureBuffer(GL_RGBA32F, data.data(), data.size() * sizeof(float));
     }
@@ -97,6 +102,8 @@ int BodyLights::bind(const gl::Program& program, int firstUnit, int points) cons
         program.set(name, unit++);
         setLights(program, typeAt(i), 0, static_cast<int>(lights_[i].size()));
     }
+    images_.bind(program);
+    program.set("uAreaPointsEver", static_cast<float>(points) * static_cast<float>(frames_));
     program.set("uAreaStart", frame_ * points);
     setPoints(program, 0, points, points);
     return unit;

@@ -6,6 +6,7 @@
 
 #include "gl/objects.hpp"
 #include "gl/program.hpp"
+#include "passes/light_atlas.hpp"
 #include "plan/plan.hpp"
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
@@ -40,6 +41,9 @@ private:
     std::array<std::vector<const Light*>, kTypes> lights_;
     std::array<bool, kTypes> shadows_{};  ///< whether lights of the type that cast shadows say so
     std::array<gl::TextureBuffer, kTypes> buffers_;
+    LightAtlas images_;
+    bool hasImages_;
+    int frames_;  ///< that are jittered
     int frame_ = 0;
 };
 

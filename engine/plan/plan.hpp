@@ -103,6 +103,7 @@ struct FramePlan {
     std::map<std::string, PlannedArea> areaMethods;   ///< by model, where the scene has lights with a body
     int areaPoints = 0;         ///< on each light with a body, in each frame; 0: none are needed
     int areaPointsForward = 0;  ///< the same, for surfaces of the forward pass
+    bool lightImages = false;   ///< images of rects are looked up
     std::map<std::string, PlannedEnvironment>
         environmentMethods;             ///< by model, where the scene has an environment
     int environmentSamples = 0;         ///< directions to it in each frame; 0: none are needed

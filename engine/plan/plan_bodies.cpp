@@ -64,6 +64,23 @@ PlannedArea Planner::areaMethod(const std::string& model) const {
             form};
 }
 
+void Planner::planLightImages() {
+    const bool shown = std::any_of(scene_.surfaces.begin(), scene_.surfaces.end(),
+                                   [&](const SurfaceFeatures& surface) { return showsBodies(surface.brdf); });
+    if (scene_.lightImages.empty() || !shown)
+        return leaveOut("texture", "images on lights",
+                        scene_.lightImages.empty() ? "no light shows an image" : "no surface shows light of a body");
+    plan_.lightImages = true;
+    const bool prefiltered =
+        std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(),
+                    [](const auto& entry) { return entry.second.method != AreaMethod::mirrored; });
+    plan_.notes.push_back("images on lights: " + plural(static_cast<int>(scene_.lightImages.size()), "rect") + " (" +
+                          joined(scene_.lightImages) + "), in one texture" +
+                          (prefiltered ? "; surfaces show them blurred by what they reflect, from halves of them, "
+                                         "points on lights by what each point stands for"
+                                       : ", looked up where mirrored rays meet them"));
+}
+
 void Planner::planBodyLights() {
     if (scene_.bodyLights.empty()) return;
     std::vector<std::string> models;
@@ -81,8 +98,9 @@ void Planner::planBodyLights() {
         soft |= shadowed && plan_.quality.shadows == Shadows::soft;
         plan_.lightGroups.push_back(std::string(nameOf(type)) + ": " + plural(count, "light") +
                                     ", one loop over all" + (models.empty() ? "" : "; " + joined(models)));
-        requireFit(nameOf(type), count, 4);
+        requireFit(nameOf(type), count, 5);
     }
+    planLightImages();
     const bool sampled =
         std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(),
                     [](const auto& entry) { return entry.second.method == AreaMethod::sampled; });
@@ -118,6 +136,7 @@ Planner::Defines Planner::bodyDefines(const std::string& model, LightType type) 
     const bool hard = plan_.quality.shadows == Shadows::hard;
     for (const auto& [kind, count] : scene_.bodyLights)
         if (kind == type || mirrored) defines[std::string(defineOf(kind)) + "_LIGHTS"] = "1";
+    if (plan_.lightImages && defines.contains("RECT_LIGHTS")) defines["RECT_IMAGES"] = "1";
     const bool maps = plan_.shadowOf(type) == PlannedShadow::maps;
     if (maps) {
         defines["SHADOWS"] = "1";

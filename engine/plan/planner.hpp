@@ -91,6 +91,7 @@ private:
     bool showsBodies(const std::string& model) const;
     PlannedArea areaMethod(const std::string& model) const;
     void planBodyLights();
+    void planLightImages();
     Defines bodyDefines(const std::string& model, LightType type) const;
     Defines forwardBodyDefines(const std::string& model) const;
     void planBodyPasses();

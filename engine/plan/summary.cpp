@@ -130,6 +130,11 @@ void countLights(const Scene& scene, SceneSummary& summary) {
                 break;
             default:
                 ++summary.bodyLights[light.type];
+                if (light.image >= 0) {
+                    const Bitmap& image = scene.images[static_cast<size_t>(light.image)];
+                    summary.lightImages.push_back(std::to_string(image.width) + " x " +
+                                                  std::to_string(image.height) + " texels");
+                }
                 break;
         }
     }

@@ -77,6 +77,7 @@ struct SceneSummary {
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
     std::map<LightType, int> bodyLights;        ///< rect, disk, sphere, tube: how many, where there are any
+    std::vector<std::string> lightImages;       ///< "64 x 48 texels", of each rect that shows an image
     std::map<std::string, AreaForm> areaForms;  ///< of each model, where there are such lights
     std::map<LightType, int> shadowLights;      ///< that cast shadows, of each type
     int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)

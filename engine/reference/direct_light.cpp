@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
-#include "reference/body_view.hpp"
+#include "reference/body_lamp.hpp"
 #include "reference/light_integrals.hpp"
 #include "shading/punctual.hpp"
 
@@ -26,6 +27,18 @@ glm::dvec3 reflected(const ShadingPoint& point, const glm::dvec3& direction) {
     const glm::dvec3 wi = local * direction, wo = local * point.toEye;
     if (!(wi.z > 0.0) || !(wo.z > 0.0)) return glm::dvec3(0.0);
     return point.brdf->fCos(Directions(wi, wo), point.values);
+}
+
+DirectLight::DirectLight(const Scene& scene, const EnvironmentMap* environment, Method method)
+    : scene_(scene), environment_(environment), method_(method), images_(scene.lights.size()) {
+    std::map<int, std::shared_ptr<const BodyImage>> made;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        const int image = scene.lights[i].image;
+        if (image < 0) continue;
+        std::shared_ptr<const BodyImage>& one = made[image];
+        if (!one) one = std::make_shared<const BodyImage>(scene.images[static_cast<size_t>(image)]);
+        images_[i] = one;
+    }
 }
 
 glm::dvec3 DirectLight::punctual(const ShadingPoint& point, const Visibility& visible,
@@ -62,12 +75,16 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
     const glm::dvec3 reflectance = point.brdf->mirror(cosine, point.values);
     double nearest = std::numeric_limits<double>::infinity();
     const Light* body = nullptr;
-    for (const Light& light : scene_.lights) {
+    glm::dvec3 radiance(0.0);
+    for (size_t i = 0; i < scene_.lights.size(); ++i) {
+        const Light& light = scene_.lights[i];
         if (isPunctual(light.type)) continue;
-        const auto distance = BodyView(light, point.position).distanceAlong(direction);
+        const BodyLamp lamp(light, point.position, bodyRadiance(light, point.position), images_[i].get());
+        const auto distance = lamp.view().distanceAlong(direction);
         if (distance && *distance < nearest) {
             nearest = *distance;
             body = &light;
+            radiance = lamp.radiance(direction, *distance);
         }
     }
     if (body == nullptr && environment_ == nullptr) return;
@@ -75,7 +92,7 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
     const double transmittance = blocked ? visible(direction, nearest) : 1.0;
     if (body != nullptr)
         exact[static_cast<size_t>(sourceOf(body->type))] +=
-            reflectance * transmittance * bodyRadiance(*body, point.position);
+            reflectance * transmittance * radiance;
     else
         exact[static_cast<size_t>(Source::environment)] +=
             reflectance * transmittance * environment_->radiance(direction);
@@ -89,11 +106,12 @@ std::vector<std::unique_ptr<LightIntegral>> DirectLight::at(const ShadingPoint& 
     addMirrored(point, visible, exact);
     if (!point.brdf->traits.scattersLight) return integrals;
     static const Visibility kUnblocked = [](const glm::dvec3&, double) { return 1.0; };
-    for (const Light& light : scene_.lights) {
+    for (size_t i = 0; i < scene_.lights.size(); ++i) {
+        const Light& light = scene_.lights[i];
         const Scatterer lit{point, light.castsShadow ? visible : kUnblocked, random};
         if (isPunctual(light.type))
             exact[static_cast<size_t>(sourceOf(light.type))] += punctual(point, lit.visible, light);
-        else if (auto integral = bodyIntegral(lit, light, method_, effort))
+        else if (auto integral = bodyIntegral(lit, light, images_[i].get(), method_, effort))
             integrals.push_back(std::move(integral));
     }
     if (environment_ != nullptr) {

@@ -15,6 +15,8 @@
 
 namespace lobe::reference {
 
+class BodyImage;
+
 /// What radiance comes from. Light types follow in their order.
 enum class Source : uint8_t {
     emission,
@@ -88,8 +90,7 @@ struct LightEffort {
 class DirectLight {
 public:
     /// Both are kept by reference; `environment` may be null.
-    DirectLight(const Scene& scene, const EnvironmentMap* environment, Method method = Method::automatic)
-        : scene_(scene), environment_(environment), method_(method) {}
+    DirectLight(const Scene& scene, const EnvironmentMap* environment, Method method = Method::automatic);
 
     /// What has no extent is added to `exact` at once (directional, point and spot lights, and what a mirror
     /// shows); what has is returned, after its first refine(). `point`, its values and `visible` must live as
@@ -104,6 +105,7 @@ private:
     const Scene& scene_;
     const EnvironmentMap* environment_;
     Method method_;
+    std::vector<std::shared_ptr<const BodyImage>> images_;  ///< of each light; null: it shows none
 };
 
 }  // namespace lobe::reference

@@ -5,9 +5,10 @@
 #include <limits>
 #include <list>
 #include <numbers>
+#include <optional>
 
 #include "math/cubature.hpp"
-#include "reference/body_view.hpp"
+#include "reference/body_lamp.hpp"
 #include "reference/parts.hpp"
 #include "shading/punctual.hpp"
 #include "shading/sampling.hpp"
@@ -87,11 +88,10 @@ private:
 /// nothing is visible.
 class ShadowedIntegral final : public StratifiedIntegral {
 public:
-    ShadowedIntegral(Source source, const Scatterer& at, int grid, const BodyView& view,
-                     const glm::dvec3& radiance, const CubatureResult& unshadowed)
+    ShadowedIntegral(Source source, const Scatterer& at, int grid, const BodyLamp& lamp,
+                     const CubatureResult& unshadowed)
         : StratifiedIntegral(source, at, grid),
-          view_(view),
-          radiance_(radiance),
+          lamp_(lamp),
           unshadowed_(unshadowed.integral),
           quadratureError_(unshadowed.error) {}
 
@@ -114,9 +114,10 @@ private:
 
     void sample(size_t part, const Point& next) override {
         const glm::dvec3 u = next();
-        const BodySample drawn = view_.draw(u.x, u.y, u.z);
+        const BodySample drawn = lamp_.draw(u.x, u.y, u.z);
         if (drawn.solidAngle == 0.0) return;
-        const glm::dvec3 lit = reflected(point_, drawn.direction) * radiance_ * drawn.solidAngle;
+        const glm::dvec3 lit = reflected(point_, drawn.direction) *
+                               lamp_.radiance(drawn.direction, drawn.distance) * drawn.solidAngle;
         if (lit == glm::dvec3(0.0)) return;
         const double transmittance = visible_(drawn.direction, drawn.distance);
         Sums& sums = sums_[part];
@@ -151,8 +152,8 @@ private:
         return estimate;
     }
 
-    BodyView view_;
-    glm::dvec3 radiance_, unshadowed_;
+    BodyLamp lamp_;
+    glm::dvec3 unshadowed_;
     double quadratureError_;
     std::array<Sums, kParts> sums_;
 };
@@ -174,7 +175,7 @@ private:
 
     void sample(size_t part, const Point& next) override {
         const glm::dvec3 u = next(), v = next();
-        add(part, lamp_.draw(u.x, u.y, u.z));
+        add(part, lamp_.draw(u.x, u.y, u.z).direction);
         add(part, point_.frame * sampleDirection(lobe_, v.z, v.x, v.y));
     }
 
@@ -201,20 +202,9 @@ private:
     Parts sums_{};
 };
 
-struct BodyLamp {
-    BodyView view;
-    glm::dvec3 radiance;
-    glm::dvec3 draw(double u, double v, double w) const { return view.draw(u, v, w).direction; }
-    double density(const glm::dvec3& direction) const { return view.density(direction); }
-    std::pair<glm::dvec3, double> towards(const glm::dvec3& direction) const {
-        const auto distance = view.distanceAlong(direction);
-        return distance ? std::pair(radiance, *distance) : std::pair(glm::dvec3(0.0), 0.0);
-    }
-};
-
 struct EnvironmentLamp {
     const EnvironmentMap& map;
-    glm::dvec3 draw(double u, double v, double) const { return map.draw(u, v); }
+    BodySample draw(double u, double v, double) const { return {map.draw(u, v), 0.0, 0.0}; }
     double density(const glm::dvec3& direction) const { return map.density(direction); }
     std::pair<glm::dvec3, double> towards(const glm::dvec3& direction) const {
         return {map.radiance(direction), std::numeric_limits<double>::infinity()};
@@ -227,10 +217,21 @@ constexpr double kSmooth = 24.0;
 constexpr double kCellSharpness = 4.0;
 constexpr int kCellsAtHorizon = 8;
 constexpr int kMostEvaluations = 20000;
+/// Of an image, in all its parts.
+constexpr int kMostParts = 2500;
+constexpr int kMostImageEvaluations = 400000;
 
-/// The light without shadows. `sharpness`: the power of e by which the lobe changes over the light.
+void add(CubatureResult& sum, const CubatureResult& one) {
+    sum.integral += one.integral;
+    sum.error += one.error;
+    sum.evaluations += one.evaluations;
+    sum.converged &= one.converged;
+}
+
+/// What `view` shows of the lamp, `light` or a part of it, without shadows. `sharpness`: the power of e by which the
+/// lobe changes over it.
 CubatureResult unshadowed(const ShadingPoint& point, const Light& light, const BodyView& view,
-                          const glm::dvec3& radiance, double sharpness, double relativeError) {
+                          const BodyLamp& lamp, double sharpness, double relativeError) {
     CubatureResult sum;
     sum.converged = true;
     CubatureOptions options;
@@ -245,17 +246,49 @@ CubatureResult unshadowed(const ShadingPoint& point, const Light& light, const B
         view.angularRadius() >= std::numbers::pi / 2)
         options.cells = std::max(options.cells, kCellsAtHorizon);
     for (int patch = 0; patch < view.patches(); ++patch) {
-        const CubatureResult one = integrateSquare(
-            [&](double u, double v) {
-                const BodySample seen = view.at(patch, u, v);
-                return seen.solidAngle > 0.0 ? reflected(point, seen.direction) * radiance * seen.solidAngle
-                                             : glm::dvec3(0.0);
-            },
-            options);
-        sum.integral += one.integral;
-        sum.error += one.error;
-        sum.converged &= one.converged;
+        add(sum, integrateSquare(
+                     [&](double u, double v) {
+                         const BodySample seen = view.at(patch, u, v);
+                         return seen.solidAngle > 0.0
+                                    ? reflected(point, seen.direction) *
+                                          lamp.radiance(seen.direction, seen.distance) * seen.solidAngle
+                                    : glm::dvec3(0.0);
+                     },
+                     options));
     }
+    return sum;
+}
+
+/// The part of a rect between the centres of four texels, or between them and its edges, where its image is smooth;
+/// nothing where it is black.
+std::optional<Light> partOf(const Light& light, const LightImage& image, int x, int y) {
+    const glm::dvec2 size(image.width(), image.height());
+    const glm::dvec2 low = glm::max((glm::dvec2(x, y) - 0.5) / size, 0.0);
+    const glm::dvec2 high = glm::min((glm::dvec2(x, y) + 0.5) / size, 1.0);
+    if (image.at(low) + image.at(high) + image.at({low.x, high.y}) + image.at({high.x, low.y}) == glm::dvec3(0.0))
+        return std::nullopt;
+    const glm::dvec2 center = 0.5 * (low + high);
+    Light part = light;
+    part.position += (0.5 - center.x) * light.width * light.axis +
+                     (center.y - 0.5) * light.height * glm::cross(light.direction, light.axis);
+    part.width *= high.x - low.x;
+    part.height *= high.y - low.y;
+    return part;
+}
+
+/// The same of a rect with an image. `sharpness`: by radian.
+CubatureResult unshadowedImage(const ShadingPoint& point, const Light& light, const LightImage& image,
+                               const BodyLamp& lamp, double sharpness, double relativeError) {
+    CubatureResult sum;
+    sum.converged = (image.width() + 1) * (image.height() + 1) <= kMostParts;
+    for (int y = 0; sum.converged && y <= image.height(); ++y)
+        for (int x = 0; sum.converged && x <= image.width(); ++x) {
+            const auto part = partOf(light, image, x, y);
+            if (!part) continue;
+            const BodyView view(*part, point.position);
+            add(sum, unshadowed(point, *part, view, lamp, sharpness * view.angularRadius(), relativeError));
+            sum.converged &= sum.evaluations <= kMostImageEvaluations;
+        }
     return sum;
 }
 
@@ -266,27 +299,28 @@ glm::dvec3 bodyRadiance(const Light& light, const glm::dvec3& point) {
     return radianceOf(light) * rangeWindow(glm::dot(toLight, toLight), light.range);
 }
 
-std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& light, Method method,
-                                            const LightEffort& effort) {
+std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& light, const BodyImage* image,
+                                            Method method, const LightEffort& effort) {
     const ShadingPoint& point = at.point;
-    const BodyView view(light, point.position);
     const glm::dvec3 radiance = bodyRadiance(light, point.position);
-    if (view.patches() == 0 || radiance == glm::dvec3(0.0)) return nullptr;
+    const BodyLamp lamp(light, point.position, radiance, image);
+    const BodyView& view = lamp.view();
+    if (view.patches() == 0 || (image != nullptr && image->black()) || radiance == glm::dvec3(0.0)) return nullptr;
     const Source source = sourceOf(light.type);
     std::unique_ptr<LightIntegral> integral;
-    const double sharpness =
-        (point.brdf->lobeSharpness ? point.brdf->lobeSharpness(point.values) : 0.0) * view.angularRadius();
-    if (method == Method::automatic && sharpness <= kSmooth) {
+    const double sharpness = point.brdf->lobeSharpness ? point.brdf->lobeSharpness(point.values) : 0.0;
+    const int parts = image != nullptr ? std::min(image->image().width(), image->image().height()) : 1;
+    if (method == Method::automatic && sharpness * view.angularRadius() <= kSmooth * parts) {
         const CubatureResult all =
-            unshadowed(point, light, view, radiance, sharpness, effort.quadratureError);
+            image != nullptr
+                ? unshadowedImage(point, light, image->image(), lamp, sharpness, effort.quadratureError)
+                : unshadowed(point, light, view, lamp, sharpness * view.angularRadius(), effort.quadratureError);
         if (all.converged) {
             if (all.integral == glm::dvec3(0.0)) return nullptr;
-            integral = std::make_unique<ShadowedIntegral>(source, at, effort.grid, view, radiance, all);
+            integral = std::make_unique<ShadowedIntegral>(source, at, effort.grid, lamp, all);
         }
     }
-    if (!integral)
-        integral =
-            std::make_unique<MixedIntegral<BodyLamp>>(source, at, effort.grid, BodyLamp{view, radiance});
+    if (!integral) integral = std::make_unique<MixedIntegral<BodyLamp>>(source, at, effort.grid, lamp);
     integral->refine();
     return integral;
 }

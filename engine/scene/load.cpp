@@ -5,11 +5,13 @@
 #include <atomic>
 #include <exception>
 #include <numeric>
+#include <set>
 #include <thread>
 
 #include "base/error.hpp"
 #include "base/worker.hpp"
 #include "scene/environment_picture.hpp"
+#include "scene/light_image.hpp"
 #include "scene/load_protocol.hpp"
 
 namespace lobe {
@@ -143,6 +145,14 @@ Scene SceneLoader::load(const fs::path& file, const LoadOptions& options) {
     if (scene.environment && scene.environment->image >= 0)
         if (auto warning = badTexelWarning(scene.images[static_cast<size_t>(scene.environment->image)]))
             scene.warnings.push_back(std::move(*warning));
+    std::set<int> lightImages;
+    for (const Light& light : scene.lights)
+        if (light.image >= 0) lightImages.insert(light.image);
+    for (const int image : lightImages) {
+        const auto index = static_cast<size_t>(image);
+        if (const auto warning = clearBadTexels(scene.images[index]))
+            scene.warnings.push_back(scene.imageNames[index] + " " + *warning);
+    }
     return scene;
 }
 

@@ -187,7 +187,7 @@ template<typename Archive>
 void serialize(Archive& archive, Light& light) {
     archive(light.name, light.type, light.position, light.direction, light.intensity, light.range,
             light.innerConeAngle, light.outerConeAngle, light.axis, light.width, light.height, light.radius,
-            light.length, light.castsShadow);
+            light.length, light.castsShadow, light.image);
 }
 
 template<typename Archive>

@@ -154,15 +154,22 @@ class Gltf:
             content["rotation"] = look_rotation(toward)
         self.node(**content)
 
-    def area_light(self, kind, radiance, size, position, toward, color=(1, 1, 1), aspect=1):
-        """EXT_lights_area: kind is rect (size: its height; aspect: width / height) or disk (size: its diameter)."""
+    def area_light(self, kind, radiance, size, position, toward, color=(1, 1, 1), aspect=1, image=None, visible=False):
+        """EXT_lights_area: kind is rect (size: its height; aspect: width / height) or disk (size: its diameter). image: of
+        LOBE_light_image, on a rect; visible: its body is drawn."""
         self.extension("EXT_lights_area")
         entry = {"type": kind, "intensity": radiance, "color": list(color), "size": size}
         if kind == "rect":
             entry["rect"] = {"aspect": aspect}
+        if image is not None:
+            self.extension("LOBE_light_image")
+            entry["extensions"] = {"LOBE_light_image": {"image": image}}
         self.area_lights.append(entry)
-        self.node(translation=list(position), rotation=look_rotation(toward),
-                  extensions={"EXT_lights_area": {"light": len(self.area_lights) - 1}})
+        extensions = {"EXT_lights_area": {"light": len(self.area_lights) - 1}}
+        if visible:
+            self.extension("LOBE_visible_light")
+            extensions["LOBE_visible_light"] = {"visible": True}
+        self.node(translation=list(position), rotation=look_rotation(toward), extensions=extensions)
 
     def scene_extension(self, name, **content):
         self.extension(name)

@@ -67,6 +67,46 @@ def tube_light():
     return g
 
 
+def window_picture(width=96, height=64):
+    """Panes of coloured glass between leads, each row in other colours, with a white L in the pane at the top left."""
+    panes = (((200, 40, 30), (240, 190, 40), (60, 160, 70), (40, 90, 200)),
+             ((120, 50, 150), (230, 230, 220), (230, 110, 30), (30, 150, 160)),
+             ((30, 60, 120), (90, 170, 60), (210, 60, 110), (240, 220, 120)))
+
+    def pixel(x, y):
+        column, row = 4 * x // width, 3 * y // height
+        at_x, at_y = x - column * width // 4, y - row * height // 3
+        if min(at_x, at_y) < 2 or x >= width - 2 or y >= height - 2:
+            return 6, 6, 8
+        if column == row == 0 and (6 <= at_x <= 8 and 4 <= at_y <= 17 or 6 <= at_x <= 15 and 15 <= at_y <= 17):
+            return 255, 255, 255
+        return panes[row][column]
+    return png(width, height, pixel)
+
+
+def screen():
+    """A window of coloured glass, and one more behind the eye, light a floor of strips from matt to glossy, and balls."""
+    g = Gltf()
+    strips = (("chalk", {"model": "lambert", "diffuse": [0.7, 0.7, 0.7]}),
+              ("satin", {"model": "ggx", "diffuse": [0.1, 0.1, 0.1], "alphaX": 0.25, "alphaY": 0.25, "fresnel": {"type": "schlick", "f0": [0.5, 0.5, 0.5]}}),
+              ("polish", {"model": "cook_torrance", "m": 0.06, "fresnel": {"type": "metal", "name": "nickel"}}),
+              ("lacquer", {"model": "phong", "diffuse": [0.15, 0.15, 0.15], "specular": [0.6, 0.6, 0.6], "shininess": 200, "normalization": "energy"}),
+              ("mirror", {"model": "mirror", "fresnel": {"type": "schlick", "f0": [0.7, 0.7, 0.7]}}))
+    positions, normals, uvs, indices = ground(1.0)
+    for i, (name, brdf) in enumerate(strips):
+        strip = [(0.56 * (x + 2 * i - 4) / 1.12, y, 2.6 * z) for x, y, z in positions]
+        place(g, (strip, normals, uvs, indices), g.material(name, brdf=brdf), uvs=False)
+    balls = (("plaster", {"model": "lambert", "diffuse": [0.8, 0.8, 0.8]}),
+             ("gold", {"model": "beckmann_smith", "m": 0.25, "fresnel": {"type": "metal", "name": "gold"}}),
+             ("glaze", {"model": "ward", "diffuse": [0.25, 0.25, 0.3], "specular": [0.25, 0.25, 0.25], "alpha": 0.1}))
+    for i, (name, brdf) in enumerate(balls):
+        place(g, sphere(32, 0.3), g.material(name, brdf=brdf), translation=(-1.3 + 1.3 * i, 0.3, 0.35), uvs=False)
+    g.area_light("rect", 5.0, 1.6, (0, 1.0, -1.6), (0, 0, 1), aspect=1.5, image="window.png", visible=True)
+    g.area_light("rect", 2.5, 1.2, (-1.6, 2.2, 3.2), (0.5, -0.6, -1), aspect=1.5, image="window.png")
+    g.camera((0.4, 1.5, 4.2), (0, 0.5, -0.4), 42)
+    return g
+
+
 def shadow_stage(g):
     """Casters of every kind on a floor: thin, round, pierced, one that touches the floor and one that floats."""
     place(g, ground(6), g.material("floor", (0.66, 0.65, 0.62), 0.0, 0.9), uvs=False)

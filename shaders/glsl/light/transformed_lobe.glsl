@@ -253,34 +253,37 @@ void lobe_add_edge(inout LobeSum s, LobeFit fit, vec3 center, vec3 a, vec3 b, bo
     lobe_add_visible(s, fit, center, from, to);
 }
 
-/// What all lobes reflect of the polygon once all its edges and the closing one are added. `center` is that of all edges, `size` the largest
-/// distance of a vertex from it, in the unit of `center`.
+/// What part of a lobe is within the polygon once all its edges and the closing one are added. `vc`: the centre of all edges in the
+/// lobes' frame, `size` the largest distance of a vertex from it, in its unit.
+float lobe_share(LobeSum s, LobeFit fit, int i, vec3 vc, float size)
+{
+    TransformedLobe l = fit.lobes[i];
+    LobePolygon p = s.polygons[i];
+    float share = abs(p.share + lobe_closing(p));
+    // Of a small light: volume of the pyramid over the distance cubed is a third of its solid angle.
+    vec3 area = 0.5 * lobe_to_frame(fit, s.area);
+    vec3 v = lobe_map(l, vc);
+    float v2 = max(dot(v, v), 1e-36);
+    float det = (l.a - l.b * l.d) * l.c;
+    float solid = abs(dot(area, vc)) * det / (v2 * sqrt(v2));
+    float extent = max(l.a + abs(l.b), max(l.c, abs(l.d) + 1.0)) * size;
+    bool small = extent * extent * (l.k + 3.0) < 1e-4 * v2;
+    return clamp(small ? solid * lobe_mapped_density(v, l.k) : share, 0.0, 1.0);
+}
+
+/// What all lobes reflect of the polygon.
 vec3 lobe_total(LobeSum s, LobeFit fit, vec3 center, float size)
 {
     vec3 vc = lobe_to_frame(fit, center);
-    vec3 area = 0.5 * lobe_to_frame(fit, s.area);
     vec3 total = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i) {
-        TransformedLobe l = fit.lobes[i];
-        LobePolygon p = s.polygons[i];
-        float share = abs(p.share + lobe_closing(p));
-        // Of a small light: volume of the pyramid over the distance cubed is a third of its solid angle.
-        vec3 v = lobe_map(l, vc);
-        float v2 = max(dot(v, v), 1e-36);
-        float det = (l.a - l.b * l.d) * l.c;
-        float solid = abs(dot(area, vc)) * det / (v2 * sqrt(v2));
-        float extent = max(l.a + abs(l.b), max(l.c, abs(l.d) + 1.0)) * size;
-        bool small = extent * extent * (l.k + 3.0) < 1e-4 * v2;
-        total += l.weight * clamp(small ? solid * lobe_mapped_density(v, l.k) : share, 0.0, 1.0);
-    }
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        total += fit.lobes[i].weight * lobe_share(s, fit, i, vc, size);
     return total;
 }
 
-/// A rect as `center`, and half its sides; both of its faces emit.
-vec3 lobe_rect(LobeFit fit, vec3 center, vec3 half_u, vec3 half_v)
+/// Sums over a rect as `c`, and half its sides.
+LobeSum lobe_rect_sum(LobeFit fit, vec3 c, vec3 u, vec3 v)
 {
-    float scale = 1.0 / max(max(area_largest(center), area_largest(half_u)), max(area_largest(half_v), 1e-30));
-    vec3 c = center * scale, u = half_u * scale, v = half_v * scale;
     LobeSum s = lobe_sum();
     vec3 a = u + v, b = v - u;
     int i = 0;
@@ -290,7 +293,21 @@ vec3 lobe_rect(LobeFit fit, vec3 center, vec3 half_u, vec3 half_v)
         a = b;
         b = next;
     } while (++i < 5);
-    return lobe_total(s, fit, c, length(u) + length(v));
+    return s;
+}
+
+/// By which lengths of a rect are multiplied first.
+float lobe_rect_scale(vec3 center, vec3 half_u, vec3 half_v)
+{
+    return 1.0 / max(max(area_largest(center), area_largest(half_u)), max(area_largest(half_v), 1e-30));
+}
+
+/// A rect as `center`, and half its sides; both of its faces emit.
+vec3 lobe_rect(LobeFit fit, vec3 center, vec3 half_u, vec3 half_v)
+{
+    float scale = lobe_rect_scale(center, half_u, half_v);
+    vec3 c = center * scale, u = half_u * scale, v = half_v * scale;
+    return lobe_total(lobe_rect_sum(fit, c, u, v), fit, c, length(u) + length(v));
 }
 
 /// An elliptical cone by a polygon of as large an area: half angles across x and y whose sines and cosines are given,

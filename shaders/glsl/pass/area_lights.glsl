@@ -15,14 +15,29 @@
 
 // position, 1/range^2; radiance, shadow's slot; axis, a; facing, b
 const int AREA_TEXELS = 4;
+// Of rects: the same, and with RECT_IMAGES the image's place in the atlas.
+#ifdef RECT_IMAGES
+#include "light/light_image.glsl"
+const int AREA_RECT_TEXELS = 5;
+#else
+const int AREA_RECT_TEXELS = 4;
+#endif
 
-AreaLight area_light(samplerBuffer lights, int i, LightReceiver r)
+// Types by number. Functions that ask for one are called with a constant, so that compilers keep that type's part alone;
+// defines leave out what a scene has none of where they are called.
+const int AREA_RECT = 0, AREA_DISK = 1, AREA_SPHERE = 2, AREA_TUBE = 3;
+
+AreaLight area_light(int type, samplerBuffer lights, int i, LightReceiver r)
 {
-    vec4 position = texelFetch(lights, AREA_TEXELS * i);
-    vec4 radiance = texelFetch(lights, AREA_TEXELS * i + 1);
-    vec4 axis = texelFetch(lights, AREA_TEXELS * i + 2);
-    vec4 facing = texelFetch(lights, AREA_TEXELS * i + 3);
+    int first = (type == AREA_RECT ? AREA_RECT_TEXELS : AREA_TEXELS) * i;
+    vec4 position = texelFetch(lights, first);
+    vec4 radiance = texelFetch(lights, first + 1);
+    vec4 axis = texelFetch(lights, first + 2);
+    vec4 facing = texelFetch(lights, first + 3);
     AreaLight light;
+#ifdef RECT_IMAGES
+    light.image = type == AREA_RECT ? texelFetch(lights, first + 4) : vec4(0.0);
+#endif
     light.center = position.xyz - r.position;
     light.axis = axis.xyz;
     light.facing = facing.xyz;
@@ -69,9 +84,9 @@ vec2 area_folded_polar(vec2 u) { return vec2(1.0 - abs(2.0 * u.x - 1.0), u.y); }
 /// Sums over points: what all of them would reflect, and what arrives of it.
 struct AreaTally { vec3 lit, seen; };
 
-void area_count(inout AreaTally tally, AreaSample s, AreaLight light, LightReceiver r, MODEL_PARAMS params)
+/// `f`: what a point reflects.
+void area_count(inout AreaTally tally, vec3 f, AreaSample s, AreaLight light, LightReceiver r)
 {
-    vec3 f = light_reflected(r, params, s.direction) * s.solid_angle;
 #ifdef AREA_ANALYTIC
     tally.lit += f;
 #endif
@@ -109,10 +124,6 @@ uniform int uTubeFirst, uTubeEnd;
 uniform int uShadowRect, uShadowDisk, uShadowSphere, uShadowTube;  // first record of the type's maps
 #endif
 
-// Types by number. Functions that ask for one are called with a constant, so that compilers keep that type's part alone;
-// defines leave out what a scene has none of where they are called.
-const int AREA_RECT = 0, AREA_DISK = 1, AREA_SPHERE = 2, AREA_TUBE = 3;
-
 #ifdef MIRRORED_LIGHTS
 #include "light/area_ray.glsl"
 
@@ -136,10 +147,16 @@ void area_offer(inout AreaNearest nearest, int type, samplerBuffer lights, int f
 {
     int i = first;
     do {
-        AreaLight light = area_light(lights, i, r);
+        AreaLight light = area_light(type, lights, i, r);
         float distance = area_ray(type, light, direction);
-        if (distance < nearest.distance)
+        if (distance < nearest.distance) {
             nearest = AreaNearest(distance, light.radiance, light.slot, type);
+#ifdef RECT_IMAGES
+            if (type == AREA_RECT && light.image.z > 0.0)
+                nearest.radiance *= light_image_sharp(light_image_of(light.image), light_image_place(direction * distance - light.center, light.axis,
+                                                                                                     light.facing, light.a, light.b));
+#endif
+        }
     } while (++i < end);
 }
 
@@ -203,24 +220,55 @@ AreaSample area_sample(int type, AreaView v, vec2 u)
     return area_tube_sample(v.tube, area_folded(u));
 }
 
+#ifdef RECT_IMAGES
+uniform float uAreaPointsEver;  // in all jittered frames
+
+/// What comes from a point of a rect, of its radiance: the picture blurred by the part of it that one of all the points
+/// stands for.
+vec3 area_image(AreaLight light, AreaRectView view, vec2 u, AreaSample s)
+{
+    float cosine = max(-dot(s.direction, light.facing), 1e-7);
+    float part = s.solid_angle * s.distance * s.distance / (cosine * uAreaPointsEver * 4.0 * light.a * light.b);
+    LightImage image = light_image_of(light.image);
+    float level = float(abs(image.turn)) - 0.5 - 0.5 * log2(clamp(part, 1e-20, 1.0));
+    // Where it is so small that offsets would cancel, points are even in area.
+    vec2 place = view.spherical ? light_image_place(s.direction * s.distance - light.center, light.axis, light.facing, light.a, light.b)
+                                : vec2(1.0 - u.x, u.y);
+    return light_image_blurred(image, place, level);
+}
+#endif
+
+/// A point of a light, and what it reflects.
+vec3 area_point_reflected(int type, AreaView view, vec2 u, AreaLight light, LightReceiver r, MODEL_PARAMS params, out AreaSample s)
+{
+    s = area_sample(type, view, u);
+    vec3 f = light_reflected(r, params, s.direction) * s.solid_angle;
+#ifdef RECT_IMAGES
+    if (type == AREA_RECT && light.image.z > 0.0)
+        f *= area_image(light, view.rect, area_folded(u), s);
+#endif
+    return f;
+}
+
 AreaTally area_points(int type, int i, AreaLight light, LightReceiver r, MODEL_PARAMS params)
 {
     AreaView view = area_view(type, light);
     uvec2 shift = area_shift(i, type);
     AreaTally tally = AreaTally(vec3(0.0), vec3(0.0));
     int point = uAreaPointsFirst;
-    do
-        area_count(tally, area_sample(type, view, area_point(shift, point)), light, r, params);
-    while (++point < uAreaPointsEnd);
+    AreaSample s;
+    do {
+        vec3 f = area_point_reflected(type, view, area_point(shift, point), light, r, params, s);
+        area_count(tally, f, s, light, r);
+    } while (++point < uAreaPointsEnd);
     light_loop_ended(point >= uAreaPointsEnd);
 #ifdef AREA_SPLIT
     // Other draws count the rest of what arrives; what is lit is that of all points.
     tally.lit = vec3(0.0);
     point = 0;
-    do {
-        AreaSample s = area_sample(type, view, area_point(shift, point));
-        tally.lit += light_reflected(r, params, s.direction) * s.solid_angle;
-    } while (++point < uAreaPointsAll);
+    do
+        tally.lit += area_point_reflected(type, view, area_point(shift, point), light, r, params, s);
+    while (++point < uAreaPointsAll);
     light_loop_ended(point >= uAreaPointsAll);
 #endif
     return tally;
@@ -276,7 +324,7 @@ vec3 area_sum(int type, samplerBuffer lights, int first, int end, LightReceiver 
     vec3 sum = vec3(0.0);
     int i = first;
     do
-        sum += area_arrives(type, i, area_light(lights, i, r), r, params);
+        sum += area_arrives(type, i, area_light(type, lights, i, r), r, params);
     while (++i < end);
     light_loop_ended(i >= end);
     return sum;
