@@ -22,6 +22,10 @@ public:
     /// the scene names it. Throws InputError if it can't be read.
     int addFile(const std::string& uri, const std::string& property);
 
+    /// The index in `images` of one of glTF's images that no texture shares. Throws InputError if it can't be
+    /// read.
+    int addOwn(size_t gltfImage);
+
     std::vector<Texture> textures;
     std::vector<EncodedImage> images;
 
