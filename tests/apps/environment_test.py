@@ -117,6 +117,30 @@ class Environments(LobeTest):
         for truth in ("truth.exr", "taken.exr"):  # of a Lambert wall: the same to what a texel's width is
             self.lobe("compare", "picture.exr", truth, "--max", "rel_mse=1e-3")
 
+    def test_bake_writes_a_folder_that_explains_itself(self):
+        (self.folder / "level.hdr").write_bytes(hdr(32, 16, lambda x, y: (1.0, 0.5, 0.25)))
+        cache = {"XDG_CACHE_HOME": str(self.folder / "cache")}
+        result = self.lobe("bake", "level.hdr", "--models", "lambert,metallic_roughness", "--widths", "0.3,0.8", "-o", "out", env=cache)
+        self.assertIn("out/environment.json, README.md", result.stderr)
+        facts = json.loads((self.folder / "out/environment.json").read_text())
+        self.assertEqual([model["name"] for model in facts["models"]], ["lambert", "metallic_roughness"])
+        self.assertIsNone(facts["sun"])
+        for value, expected in zip(facts["irradiance"]["harmonics_order_2"][0], (1.0, 0.5, 0.25)):
+            self.assertAlmostEqual(value * 0.28209479, expected, delta=1e-3)
+        files = {str(p.relative_to(self.folder / "out")) for p in (self.folder / "out").rglob("*") if p.is_file()}
+        layers = {layer["file"] for model in facts["models"] for layer in model["layers"]}
+        splits = {model["split"]["file"] for model in facts["models"]}
+        self.assertEqual(files, layers | splits | {"README.md", "environment.json", "environment.exr", "irradiance.exr"})
+        for arguments, code, hint in ((["level.hdr", "--models", "mirror"], 2, "environment.exr is what it shows; expected some of"),
+                                      (["level.hdr", "--models", "lambrt"], 2, "did you mean 'lambert'"),
+                                      (["level.hdr", "--widths", "3,1"], 2, "FROM at most TO"),
+                                      (["level.hdr", "--widths", "x"], 2, "expected one width above 0"), ([], 2, "nothing to bake"),
+                                      (["none.hdr"], 3, "none.hdr: cannot be read"),
+                                      (["level.hdr", "--models", "lambert", "-o", "/proc/none"], 7, "/proc/none")):
+            result = self.lobe("bake", *arguments, expect=code, env=cache)
+            self.assertIn(hint, result.stderr)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+
     def test_image_based_light_of_a_scene(self):
         scene = quad_scene(nodes=[{"mesh": 0}], scenes=[{"nodes": [0], "extensions": {"EXT_lights_image_based": {"light": 0}}}],
                            extensionsUsed=["LOBE_materials_brdf", "EXT_lights_image_based"])
