@@ -38,6 +38,7 @@ SCENES = {
     "fog/height": fog.height_fog,
     "fog/airlight": fog.airlight,
     "environment/balls": environment.balls,
+    "environment/sky": environment.sky,
     "panes": fog.panes,
     "glass": fog.glass,
 }

@@ -16,6 +16,8 @@ int planCommand(const std::vector<std::string>& arguments);
 int plotCommand(const std::vector<std::string>& arguments);
 /// `lobe report`: docs/report.md.
 int reportCommand(const std::vector<std::string>& arguments);
+/// `lobe bake ENV`: docs/environment.md.
+int bakeCommand(const std::vector<std::string>& arguments);
 /// `lobe compare A B`: docs/compare.md.
 int compareCommand(const std::vector<std::string>& arguments);
 int infoCommand(const std::vector<std::string>& arguments);

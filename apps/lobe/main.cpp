@@ -20,6 +20,7 @@ constexpr const char* kUsage =
     "  models [MODEL...]                    shading models, their parameters and published surfaces\n"
     "  plot KIND -o FILE.svg                lobes, albedo, errors, ... of reflectance models\n"
     "  explain SCENE --pixel X,Y            surface, lights and terms behind one pixel, and a test of it\n"
+    "  bake ENV -o DIR                      an environment prefiltered for models, for other programs\n"
     "  compare A B                          how far picture A is from B, the truth\n"
     "  info                                 OpenGL contexts that can be made here\n"
     "  help [COMMAND]                       every setting, or a command's options\n"
@@ -32,7 +33,8 @@ int run(const std::vector<std::string>& arguments) {
         {"compare", lobe::app::compareCommand}, {"explain", lobe::app::explainCommand},
         {"plan", lobe::app::planCommand},       {"models", lobe::app::modelsCommand},
         {"plot", lobe::app::plotCommand},       {"info", lobe::app::infoCommand},
-        {"report", lobe::app::reportCommand},   {"help", lobe::app::helpCommand}};
+        {"report", lobe::app::reportCommand},   {"help", lobe::app::helpCommand},
+        {"bake", lobe::app::bakeCommand}};
     const std::string first = arguments.empty() ? "" : arguments[0];
     if (first == "--version") {
         lobe::app::printVersion("lobe");

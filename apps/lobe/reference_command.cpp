@@ -12,6 +12,7 @@
 #include "output_name.hpp"
 #include "record.hpp"
 #include "shot_scene.hpp"
+#include "shot_sun.hpp"
 #include "truth_store.hpp"
 
 namespace lobe::app {
@@ -76,7 +77,7 @@ int referenceCommand(const std::vector<std::string>& list) {
     SceneLoader loader;
     const auto scene =
         preparedScene(std::make_shared<const Scene>(loader.load(shot.scene, loadOptionsOf(*shot.settings))),
-                      *shot.settings);
+                      settingsOfTruth(*shot.settings));
     for (const std::string& warning : scene->warnings)
         std::cerr << "lobe: warning: " << scene->file << ": " << warning << '\n';
     for (const Material& material : scene->materials)

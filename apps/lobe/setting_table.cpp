@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "gl/context.hpp"
 #include "plan/knobs.hpp"
+#include "scene/sky.hpp"
 #include "settings.hpp"
 #include "shading/brdf.hpp"
 
@@ -213,6 +214,63 @@ std::vector<Setting> makeTable() {
          "the environment behind surfaces; default as the scene says, else show",
          "Scene",
          {"show", "blur", "hide"}},
+        {"env_sun",
+         choice,
+         "auto",
+         "the sun in a picture of the environment: kept in it, taken out as a light that casts shadows, or, "
+         "auto, "
+         "taken out where it outshines the rest (docs/environment.md)",
+         "Scene",
+         {"auto", "keep", "take"}},
+        {"sky",
+         choice,
+         nullptr,
+         "a sky as the environment, in place of the scene's own: one colour, a gradient, or sun and clear "
+         "sky "
+         "after Preetham; default as the scene says",
+         "Scene",
+         {"constant", "gradient", "preetham"}},
+        {"sky_zenith", colour, nullptr, "radiance of a constant sky, and of a gradient's zenith", "Scene"},
+        {"sky_horizon", colour, nullptr, "radiance of a gradient's horizon", "Scene"},
+        {"sky_ground", colour, nullptr, "radiance of a gradient's nadir; reflectance of Preetham's ground",
+         "Scene"},
+        {"sky_turbidity",
+         real,
+         nullptr,
+         "haze of Preetham's sky: 2 is very clear, 3 clear, 6 hazy; default 3",
+         "Scene",
+         {},
+         kLeastTurbidity,
+         kMostTurbidity},
+        {"sun_elevation",
+         real,
+         nullptr,
+         "of the sun in Preetham's sky above the horizon; default 45",
+         "Scene",
+         {},
+         0.0,
+         90.0,
+         "degrees"},
+        {"sun_azimuth",
+         real,
+         nullptr,
+         "of the sun in Preetham's sky, from the front (0, +Z) to the right (90, +X); default 0",
+         "Scene",
+         {},
+         -360.0,
+         360.0,
+         "degrees"},
+        {"sun_size",
+         real,
+         nullptr,
+         "angular diameter of the sun of a sky or a picture: a disk of that size; 0: a directional light; "
+         "default "
+         "0.53 of a sky and where a material mirrors, else 0",
+         "Scene",
+         {},
+         0.0,
+         10.0,
+         "degrees"},
 
         {"quality", choice, "balanced", "preset of the knobs below; a knob that is set wins over it",
          "Quality", qualityPresetNames()},

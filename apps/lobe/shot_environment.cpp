@@ -1,7 +1,7 @@
 #include "shot_environment.hpp"
 
 #include <fstream>
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
 #include <iterator>
 
 #include "base/content_hash.hpp"
@@ -9,6 +9,9 @@
 #include "environment/blurred_picture.hpp"
 #include "image/image_files.hpp"
 #include "scene/environment_picture.hpp"
+#include "scene/made_environment.hpp"
+#include "shot_sky.hpp"
+#include "shot_sun.hpp"
 
 namespace lobe::app {
 namespace {
@@ -77,21 +80,15 @@ Picture read(const std::string& file) {
     return picture;
 }
 
-int addPicture(Scene& scene, Bitmap bitmap, const std::string& name) {
-    scene.imageNames.resize(scene.images.size());
-    scene.images.push_back(std::move(bitmap));
-    scene.imageNames.push_back(name);
-    return static_cast<int>(scene.images.size()) - 1;
-}
-
 }  // namespace
 
 bool hasEnvironment(const Scene& scene, const Settings& settings) {
-    return scene.environment.has_value() || !settings.get("env").is_null();
+    return scene.environment.has_value() || !settings.get("env").is_null() || !settings.get("sky").is_null();
 }
 
-json environmentChanges(const Settings& settings) {
-    json changes = json::object();
+json environmentChanges(const Scene& scene, const Settings& settings) {
+    json changes = skyChanges(scene, settings);
+    changes.update(sunChanges(scene, settings));
     if (const json& file = settings.get("env"); !file.is_null()) changes["env"] = file;
     if (const json& turn = settings.get("env_rotation"); turn != 0.0) changes["env_rotation"] = turn;
     if (const json& factor = settings.get("env_intensity"); factor != 1.0) changes["env_intensity"] = factor;
@@ -100,7 +97,7 @@ json environmentChanges(const Settings& settings) {
 }
 
 void applyEnvironment(Scene& scene, const Settings& settings) {
-    const json changes = environmentChanges(settings);
+    const json changes = environmentChanges(scene, settings);
     if (changes.empty()) return;
     if (!hasEnvironment(scene, settings)) {
         std::string names;
@@ -113,6 +110,7 @@ void applyEnvironment(Scene& scene, const Settings& settings) {
         const std::string name = file.get<std::string>();
         Picture picture = read(name);
         scene.warnings.insert(scene.warnings.end(), picture.warnings.begin(), picture.warnings.end());
+        removeEnvironment(scene);
         scene.environment = Environment{};
         scene.environment->image = addPicture(scene, std::move(picture.bitmap), name);
         const std::string both = scene.contentHash + picture.hash.hex();
@@ -120,16 +118,17 @@ void applyEnvironment(Scene& scene, const Settings& settings) {
         hash.add(std::as_bytes(std::span(both)));
         scene.contentHash = hash.hex();
     }
+    applySky(scene, settings);
+    applySun(scene, settings);
+    turnEnvironment(scene, glm::radians(settings.get("env_rotation").get<double>()));
+    scaleEnvironment(scene, settings.get("env_intensity").get<double>());
     Environment& environment = *scene.environment;
-    const double turn = glm::radians(settings.get("env_rotation").get<double>());
-    environment.worldFromMap =
-        glm::dmat3(glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0.0, 1.0, 0.0))) * environment.worldFromMap;
-    environment.intensity *= settings.get("env_intensity").get<double>();
     const json& seen = settings.get("env_background");
     if (seen.is_null()) return;
     environment.background = seen != "hide";
     if (seen == "blur" && environment.image >= 0)
-        environment.backgroundImage = addPicture(scene, blurredPicture(EnvironmentMap::of(scene)), "blurred");
+        environment.backgroundImage =
+            addPicture(scene, blurredPicture(EnvironmentMap::ofBackground(scene)), "blurred");
 }
 
 }  // namespace lobe::app

@@ -8,7 +8,7 @@
 namespace lobe::app {
 
 /// The settings that are to change it, by name.
-nlohmann::json environmentChanges(const Settings& settings);
+nlohmann::json environmentChanges(const Scene& scene, const Settings& settings);
 
 /// Whether there will be one.
 bool hasEnvironment(const Scene& scene, const Settings& settings);

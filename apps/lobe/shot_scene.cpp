@@ -122,7 +122,7 @@ json changesOf(const Scene& scene, const Settings& settings) {
     if (const std::string model = modelForAll(scene, settings); !model.empty()) changes["brdf"] = model;
     if (const json& values = settings.get("brdf_set"); !values.is_null()) changes["brdf_set"] = values;
     if (const json& bands = settings.get("bands"); bands != kRgb) changes["bands"] = bands;
-    const json environment = environmentChanges(settings);
+    const json environment = environmentChanges(scene, settings);
     for (const auto& [key, value] : environment.items())
         changes[key] = value;
     if (needsLight(scene, settings)) {
@@ -144,7 +144,7 @@ std::shared_ptr<const Scene> preparedScene(const std::shared_ptr<const Scene>& b
         changed = std::make_shared<Scene>(withParameters(changed ? *changed : *base, values));
     if (const int bands = settings.get("bands").get<int>(); bands != kRgb)
         changed = std::make_shared<Scene>(withBands(changed ? *changed : *base, bands));
-    if (!environmentChanges(settings).empty()) {
+    if (!environmentChanges(*base, settings).empty()) {
         if (!changed) changed = std::make_shared<Scene>(*base);
         applyEnvironment(*changed, settings);
     }

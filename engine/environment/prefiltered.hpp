@@ -17,7 +17,7 @@
 namespace lobe::environment {
 
 /// Changes whenever the same input would give other texels: part of the key under which they are kept.
-inline constexpr int kVersion = 3;
+inline constexpr int kVersion = 4;
 
 /// What is made.
 struct Request {

@@ -33,8 +33,7 @@ float brightness(const glm::vec3& rgb) {
     return (rgb.r + rgb.g + rgb.b) / 3.0F;
 }
 
-/// Places around each ring.
-constexpr int kAround = 12;
+/// From one place of a ring to the next.
 constexpr float kStepCosine = 0.8660254037844387F, kStepSine = 0.5F;
 
 /// Of squares that make up one.
@@ -138,11 +137,18 @@ RadianceTree::RadianceTree(const EnvironmentMap& map) : size_(sizeFor(map)) {
             }
         levels_.push_back(std::move(level));
     }
-    for (const std::vector<Node>& level : levels_) {
-        std::vector<glm::vec3>& mean = radiance_.emplace_back();
-        mean.reserve(level.size());
-        for (const Node& node : level)
-            mean.push_back(node.energy / node.solidAngle);
+    for (size_t i = 0; i < levels_.size(); ++i) {
+        const int n = size_ >> i;
+        std::vector<Four>& mean = radiance_.emplace_back();
+        mean.reserve(static_cast<size_t>(n + 2) * static_cast<size_t>(n + 2));
+        for (int y = -1; y <= n; ++y)
+            for (int x = -1; x <= n; ++x) {
+                const auto [fx, fy] = foldedSquare(x, y, n);
+                const Node& node =
+                    levels_[i][static_cast<size_t>(fy) * static_cast<size_t>(n) + static_cast<size_t>(fx)];
+                const glm::vec3 rgb = node.energy / node.solidAngle;
+                mean.push_back(Four{rgb.r, rgb.g, rgb.b, 0.0F});
+            }
     }
     glm::dvec3 sum(0.0);
     double sphere = 0.0;
@@ -202,23 +208,22 @@ glm::dvec3 RadianceTree::blurred(const glm::vec3& axis, const ZonalKernel& kerne
     return weights > 0.0 ? sum / weights : mean_;
 }
 
-glm::vec3 RadianceTree::read(size_t level, const glm::vec3& d) const {
+RadianceTree::Four RadianceTree::read(size_t level, const glm::vec3& d) const {
     const int side = size_ >> level;
     const float norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
     glm::vec2 p(d.x / norm, d.y / norm);
     if (d.z < 0.0F)
         p = {(1.0F - std::abs(d.y) / norm) * (d.x >= 0.0F ? 1.0F : -1.0F),
              (1.0F - std::abs(d.x) / norm) * (d.y >= 0.0F ? 1.0F : -1.0F)};
+    // From -0.5 to side - 0.5 among the squares; the border is one before them.
     const glm::vec2 at = (p * 0.5F + 0.5F) * static_cast<float>(side) - 0.5F;
-    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
-    const float s = at.x - static_cast<float>(x), t = at.y - static_cast<float>(y);
-    const auto texel = [&](int i, int j) {
-        const auto [fx, fy] = foldedSquare(i, j, side);
-        return radiance_[level]
-                        [static_cast<size_t>(fy) * static_cast<size_t>(side) + static_cast<size_t>(fx)];
-    };
-    return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), s),
-                    glm::mix(texel(x, y + 1), texel(x + 1, y + 1), s), t);
+    const int x = static_cast<int>(at.x + 1.0F), y = static_cast<int>(at.y + 1.0F);
+    const float s = at.x - static_cast<float>(x - 1), t = at.y - static_cast<float>(y - 1);
+    const auto stride = static_cast<size_t>(side + 2);
+    const Four* const row = &radiance_[level][static_cast<size_t>(y) * stride + static_cast<size_t>(x)];
+    const Four above = row[0] * (1.0F - s) + row[1] * s;
+    const Four below = row[stride] * (1.0F - s) + row[stride + 1] * s;
+    return above * (1.0F - t) + below * t;
 }
 
 RadianceTree::Rings::Rings(const RadianceTree& tree, const ZonalKernel& kernel) : tree_(tree) {
@@ -244,29 +249,33 @@ RadianceTree::Rings::Rings(const RadianceTree& tree, const ZonalKernel& kernel) 
         const double cosine = 1.0 - middle / 2.0;
         double level = 0.5 * std::log2(std::max(part, 1e-12) * tree.size_ * tree.size_ / (4.0 * kPi));
         level = std::clamp(std::floor(level + 0.5), 0.0, static_cast<double>(tree.levels_.size() - 1));
-        rings_.push_back(
-            {static_cast<float>(std::sqrt(std::max(middle * (1.0 - middle / 4.0), 0.0))),
-             static_cast<float>(cosine), static_cast<float>(kShares[i + 1] - kShares[i]),
-             static_cast<float>(2.0 * kPi / kAround * std::fmod(0.618034 * static_cast<double>(i), 1.0)),
-             static_cast<size_t>(level)});
+        const auto sine = static_cast<float>(std::sqrt(std::max(middle * (1.0 - middle / 4.0), 0.0)));
+        const auto phase =
+            static_cast<float>(2.0 * kPi / kAround * std::fmod(0.618034 * static_cast<double>(i), 1.0));
+        Ring& ring = rings_.emplace_back(Ring{static_cast<float>(cosine),
+                                              static_cast<float>(kShares[i + 1] - kShares[i]),
+                                              static_cast<size_t>(level),
+                                              {}});
+        glm::vec2 turned(std::cos(phase), std::sin(phase));
+        for (glm::vec2& place : ring.places) {
+            place = sine * turned;
+            turned = {turned.x * kStepCosine - turned.y * kStepSine,
+                      turned.x * kStepSine + turned.y * kStepCosine};
+        }
     }
 }
 
 glm::dvec3 RadianceTree::Rings::about(const glm::vec3& axis) const {
     const glm::mat3 frame(frameAbout(glm::dvec3(axis)));
-    glm::vec3 sum(0.0F);
+    Four sum{};
     for (const Ring& ring : rings_) {
-        glm::vec3 part(0.0F);
-        glm::vec2 turned(std::cos(ring.phase), std::sin(ring.phase));
-        for (int i = 0; i < kAround; ++i) {
-            part += tree_.read(
-                ring.level, ring.cosine * frame[2] + ring.sine * (turned.x * frame[0] + turned.y * frame[1]));
-            turned = {turned.x * kStepCosine - turned.y * kStepSine,
-                      turned.x * kStepSine + turned.y * kStepCosine};
-        }
-        sum += part * (ring.share / kAround);
+        const glm::vec3 along = ring.cosine * frame[2];
+        Four part{};
+        for (const glm::vec2& place : ring.places)
+            part += tree_.read(ring.level, along + (place.x * frame[0] + place.y * frame[1]));
+        sum += part * (ring.share / static_cast<float>(kAround));
     }
-    return glm::dvec3(sum);
+    return {double{sum[0]}, double{sum[1]}, double{sum[2]}};
 }
 
 }  // namespace lobe::environment

@@ -1,6 +1,7 @@
 /// An environment map as a tree over the sphere, summed with kernels whose width is far above a texel's.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <glm/glm.hpp>
 #include <vector>
@@ -38,13 +39,15 @@ public:
     /// parts of the ring.
     class Rings {
     public:
+        static constexpr size_t kAround = 12;
         Rings(const RadianceTree& tree, const ZonalKernel& kernel);
         glm::dvec3 about(const glm::vec3& axis) const;
 
     private:
         struct Ring {
-            float sine, cosine, share, phase;
+            float cosine, share;
             size_t level;
+            std::array<glm::vec2, kAround> places;  ///< across the axis
         };
         const RadianceTree& tree_;
         std::vector<Ring> rings_;
@@ -60,11 +63,12 @@ public:
     const glm::dvec3& mean() const { return mean_; }
 
 private:
-    /// Bilinear, of one level.
-    glm::vec3 read(size_t level, const glm::vec3& direction) const;
+    using Four = float __attribute__((vector_size(16)));
+    /// Bilinear, of one level: red, green, blue.
+    Four read(size_t level, const glm::vec3& direction) const;
     int size_ = 0;
-    std::vector<std::vector<glm::vec3>> radiance_;  ///< of each level
-    std::vector<std::vector<Node>> levels_;         ///< from the finest to 4 x 4
+    std::vector<std::vector<Four>> radiance_;  ///< of each level, with a border of one square
+    std::vector<std::vector<Node>> levels_;    ///< from the finest to 4 x 4
     glm::dvec3 mean_{0.0};
 };
 

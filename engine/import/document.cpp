@@ -148,6 +148,7 @@ tinygltf::Model typedModel(const Document& document) {
 
 const std::vector<std::string>& supportedExtensions() {
     static const std::vector<std::string> kNames{"EXT_lights_area",
+                                                 "EXT_lights_image_based",
                                                  "EXT_texture_webp",
                                                  "KHR_draco_mesh_compression",
                                                  "KHR_lights_punctual",

@@ -2,6 +2,8 @@
 
 #include <cfloat>
 
+#include "scene/sky.hpp"
+
 namespace lobe {
 
 namespace {
@@ -162,8 +164,16 @@ const ObjectSchema& node() {
 
 const ObjectSchema& scene() {
     static const ObjectSchema ambient{{optional("radiance", arrayOf(number(0.0, kLargest), 3, 3))}};
+    const auto colour = [] { return arrayOf(number(0.0, kLargest), 3, 3); };
+    constexpr double kRightAngle = kPi / 2 + 1e-6, kLargestSun = 0.2;
+    static const ObjectSchema sky{
+        {required("model", oneOf(std::vector<std::string>{"constant", "gradient", "preetham"})),
+         optional("zenith", colour()), optional("horizon", colour()), optional("ground", colour()),
+         optional("turbidity", number(kLeastTurbidity, kMostTurbidity)),
+         optional("sunElevation", number(0.0, kRightAngle)), optional("sunAzimuth", number()),
+         optional("sunDiameter", number(0.0, kLargestSun))}};
     static const ObjectSchema environment{
-        {optional("image", text()), optional("radiance", arrayOf(number(0.0, kLargest), 3, 3)),
+        {optional("image", text()), optional("radiance", colour()), optional("sky", objectOf(sky)),
          optional("intensity", number(0.0, kLargest)), optional("rotation", numbers(4)),
          optional("background", boolean())}};
     static const ObjectSchema fog{{optional("extinction", arrayOf(number(0.0, kLargest), 3, 3)),
@@ -172,9 +182,10 @@ const ObjectSchema& scene() {
                                    optional("height", number()),
                                    optional("scattering", arrayOf(number(0.0, kLargest), 3, 3)),
                                    optional("anisotropy", number(-kLargestAnisotropy, kLargestAnisotropy))}};
-    static const ObjectSchema extensions{{optional("LOBE_ambient", objectOf(ambient)),
-                                          optional("LOBE_environment", objectOf(environment)),
-                                          optional("LOBE_fog", objectOf(fog))}};
+    static const ObjectSchema imageBased{{required("light", integer(0))}};
+    static const ObjectSchema extensions{
+        {optional(kImageBasedExtension, objectOf(imageBased)), optional("LOBE_ambient", objectOf(ambient)),
+         optional("LOBE_environment", objectOf(environment)), optional("LOBE_fog", objectOf(fog))}};
     static const ObjectSchema schema{{optional("name", text()), optional("nodes", arrayOf(indexOf("nodes"))),
                                       optional("extensions", objectOf(extensions))}};
     return schema;
@@ -216,8 +227,16 @@ const ObjectSchema& rootExtensions() {
                                          optional("size", sizeInMetres()), optional("rect", objectOf(rect)),
                                          optional("extensions", objectOf(areaLightExtensions))}};
     static const ObjectSchema areaLights{{required("lights", arrayOf(objectOf(areaLight)))}};
-    static const ObjectSchema schema{
-        {optional(kLightsExtension, objectOf(lights)), optional(kAreaLightsExtension, objectOf(areaLights))}};
+    static const ObjectSchema imageBasedLight{
+        {optional("name", text()), optional("rotation", numbers(4)),
+         optional("intensity", number(0.0, kLargest)),
+         optional("irradianceCoefficients", arrayOf(numbers(3), 9, 9)),
+         optional("specularImages", arrayOf(arrayOf(indexOf("images"), 6, 6))),
+         optional("specularImageSize", integer(1))}};
+    static const ObjectSchema imageBasedLights{{required("lights", arrayOf(objectOf(imageBasedLight)))}};
+    static const ObjectSchema schema{{optional(kLightsExtension, objectOf(lights)),
+                                      optional(kAreaLightsExtension, objectOf(areaLights)),
+                                      optional(kImageBasedExtension, objectOf(imageBasedLights))}};
     return schema;
 }
 

@@ -11,6 +11,7 @@ const ObjectSchema& gltfSchema();
 inline constexpr const char* kLightsExtension = "KHR_lights_punctual";
 /// The same for EXT_lights_area.
 inline constexpr const char* kAreaLightsExtension = "EXT_lights_area";
+inline constexpr const char* kImageBasedExtension = "EXT_lights_image_based";
 inline constexpr const char* kLightShapeExtension = "LOBE_light_shape";
 /// On a rect of EXT_lights_area: the picture that it shows.
 inline constexpr const char* kLightImageExtension = "LOBE_light_image";

@@ -118,6 +118,11 @@ int TextureTable::addTexture(int image) {
     return static_cast<int>(textures.size()) - 1;
 }
 
+int TextureTable::addOwn(size_t gltfImage) {
+    images.push_back({imageName(document_, gltfImage), readImage(document_, gltfImage), -1});
+    return static_cast<int>(images.size()) - 1;
+}
+
 Sampler TextureTable::sampler(int gltfSampler) const {
     Sampler sampler;
     if (gltfSampler < 0) {

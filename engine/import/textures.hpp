@@ -25,6 +25,10 @@ public:
     /// The scene's index of a texture that shows an image, by its index in `images`, up to its edges.
     int addTexture(int image);
 
+    /// The index in `images` of one of glTF's images that no texture shares. Throws InputError if it can't be
+    /// read.
+    int addOwn(size_t gltfImage);
+
     std::vector<Texture> textures;
     std::vector<EncodedImage> images;
 

@@ -69,7 +69,7 @@ void Planner::planEnvironmentShadow() {
 void Planner::planEnvironment() {
     if (!scene_.environment) return;
     std::string models;
-    bool sampled = false, looked = scene_.environmentSeen && !scene_.environmentBlurred;
+    bool sampled = false, looked = scene_.environmentSeen && !scene_.environmentOtherSeen;
     for (const auto& [model, how] : plan_.environmentMethods) {
         models += "; " + model + " " + how.reason;
         sampled |= how.method == EnvironmentMethod::sampled;
@@ -79,6 +79,8 @@ void Planner::planEnvironment() {
                              std::to_string(scene_.environmentHeight) + " texels";
     plan_.lightGroups.push_back(
         "environment: " + (scene_.environmentPicture ? size : std::string("constant")) + models);
+    for (const std::string& note : scene_.environmentNotes)
+        plan_.notes.push_back("environment: " + note);
     const int most = capabilities_.maxTextureSize;
     if (looked && (scene_.environmentWidth > most || scene_.environmentHeight + 2 > most))
         throw ContextError("the environment has " + size + "; expected at most " + std::to_string(most) +
@@ -164,8 +166,9 @@ void Planner::planBackground() {
                      {{}},
                      {},
                      {target},
-                     scene_.environmentBlurred ? "the environment is seen behind surfaces, blurred"
-                                               : "the environment is seen behind surfaces"};
+                     scene_.environmentOtherSeen
+                         ? "the environment is seen behind surfaces, as a picture of its own"
+                         : "the environment is seen behind surfaces"};
     if (contributions_) pass.writes.emplace_back("radiance");  // coverage only
     if (hasDeferredSurface_) pass.reads.emplace_back("depth");
     plan_.passes.push_back(pass);

@@ -143,8 +143,9 @@ void countLights(const Scene& scene, SceneSummary& summary) {
         const Environment& environment = *scene.environment;
         summary.environmentPicture = environment.image >= 0;
         summary.environmentSeen = environment.background;
-        summary.environmentBlurred = environment.background && environment.backgroundImage >= 0;
+        summary.environmentOtherSeen = environment.background && environment.backgroundImage >= 0;
         summary.environmentCastsShadow = environment.castsShadow;
+        summary.environmentNotes = environment.notes;
         if (environment.image >= 0) {
             const Bitmap& picture = scene.images[static_cast<size_t>(environment.image)];
             summary.environmentWidth = picture.width;

@@ -84,9 +84,10 @@ struct SceneSummary {
     bool environment = false, fog = false;
     bool environmentPicture = false;                  ///< it is not the same from everywhere
     bool environmentSeen = false;                     ///< where no surface is
-    bool environmentBlurred = false;                  ///< and then as another picture
+    bool environmentOtherSeen = false;                ///< and then as another picture
     bool environmentCastsShadow = false;              ///< surfaces block it
     int environmentWidth = 0, environmentHeight = 0;  ///< of its picture, texels
+    std::vector<std::string> environmentNotes;        ///< Environment::notes
     /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,
     /// 1/sr, infinite where one has no bound, and then the model that has none.
     double peak = 0.0;

@@ -13,6 +13,7 @@
 #include "scene/environment_picture.hpp"
 #include "scene/light_image.hpp"
 #include "scene/load_protocol.hpp"
+#include "scene/made_environment.hpp"
 
 namespace lobe {
 
@@ -142,6 +143,7 @@ Scene SceneLoader::load(const fs::path& file, const LoadOptions& options) {
     LoadReply reply = workers_->import(file, options);
     Scene scene = std::move(reply.scene);
     scene.images = workers_->decode(reply, scene.file, scene.warnings);
+    makeEnvironment(scene);
     if (scene.environment && scene.environment->image >= 0)
         if (auto warning = badTexelWarning(scene.images[static_cast<size_t>(scene.environment->image)]))
             scene.warnings.push_back(std::move(*warning));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "scene/environment_source.hpp"
 #include "shading/brdf.hpp"
 #include "shading/fog.hpp"
 
@@ -142,9 +143,14 @@ struct Environment {
     double intensity = 1.0;    ///< multiplies the image's radiance
     glm::dmat3 worldFromMap{1.0};
     bool background = true;  ///< seen where no surface is
-    /// Index of another such picture that is seen in place of `image`, as the same one blurred; -1: none.
+    /// Index of another such picture that is seen in place of `image`, as the same one blurred or with its
+    /// sun; -1: none.
     int backgroundImage = -1;
     bool castsShadow = true;  ///< surfaces keep its light from one another
+    /// Index into Scene::lights of its sun, which is in neither `image` nor `radiance`; -1: none.
+    int sun = -1;
+    EnvironmentSource source;        ///< what `image` is made of, where that is no picture
+    std::vector<std::string> notes;  ///< one line each: what was made or taken out of what was given, and why
 };
 
 /// Beer-Lambert transmittance of the way from surface to eye (LOBE_fog): sigma(y) = extinction

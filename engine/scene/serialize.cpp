@@ -191,10 +191,27 @@ void serialize(Archive& archive, Light& light) {
 }
 
 template<typename Archive>
+void serialize(Archive& archive, Sky& sky) {
+    archive(sky.model, sky.zenith, sky.horizon, sky.ground, sky.turbidity, sky.sunElevation, sky.sunAzimuth,
+            sky.sunDiameter);
+}
+
+template<typename Archive>
+void serialize(Archive& archive, ImageBasedLight& light) {
+    archive(light.faces, light.harmonics);
+}
+
+template<typename Archive>
+void serialize(Archive& archive, EnvironmentSource& source) {
+    archive(source.sky, source.imageBased);
+}
+
+template<typename Archive>
 void serialize(Archive& archive, Environment& environment) {
     archive(environment.image, environment.radiance, environment.intensity);
     archive(environment.worldFromMap[0], environment.worldFromMap[1], environment.worldFromMap[2]);
-    archive(environment.background, environment.backgroundImage, environment.castsShadow);
+    archive(environment.background, environment.backgroundImage, environment.castsShadow, environment.sun);
+    archive(environment.source, environment.notes);
 }
 
 template<typename Archive>

@@ -2,7 +2,7 @@
 import math
 
 from making.gltf_writer import Gltf, png
-from making.shapes import place, sphere
+from making.shapes import ground, place, sphere
 
 # Seven rows of five from the top, a bit a square.
 GLYPHS = {"+": (0, 4, 4, 31, 4, 4, 0), "-": (0, 0, 0, 31, 0, 0, 0), "X": (17, 17, 10, 4, 10, 17, 17),
@@ -48,4 +48,20 @@ def balls():
         place(g, sphere(28, 0.48), surface, translation=(i - 2.0, 0, 0), uvs=False)
     g.scene_extension("LOBE_environment", image="directions.png")
     g.camera((0, 0.6, 6.0), (0, 0, 0), 34)
+    return g
+
+
+def sky():
+    """A mirror, a metal, glaze and chalk on a pale floor under a clear sky with the sun low at the left."""
+    g = Gltf()
+    surfaces = (g.material("mirror", brdf={"model": "mirror", "fresnel": {"type": "schlick", "f0": [0.9, 0.9, 0.9]}}),
+                g.material("rough metal", (0.95, 0.93, 0.88), 1.0, 0.4), g.material("glaze", (0.5, 0.05, 0.03), 0.0, 0.15),
+                g.material("chalk", brdf={"model": "lambert", "diffuse": [0.8, 0.8, 0.8]}))
+    place(g, ground(), g.material("floor", brdf={"model": "lambert", "diffuse": [0.45, 0.42, 0.38]}), uvs=False)
+    for i, surface in enumerate(surfaces):
+        place(g, sphere(28, 0.48), surface, translation=(1.1 * (i - 1.5), 0.48, 0), uvs=False)
+    g.scene_extension("LOBE_environment", intensity=0.005, sky={
+        "model": "preetham", "turbidity": 3, "sunElevation": math.radians(25), "sunAzimuth": math.radians(-60),
+        "ground": [0.3, 0.28, 0.25]})
+    g.camera((0.6, 1.5, 6.5), (0, 0.5, 0), 38)
     return g

@@ -53,13 +53,105 @@ TEST(EnvironmentExtension, ImageBesideTheScene) {
 }
 
 TEST(EnvironmentExtension, DamageIsRefused) {
-    EXPECT_THAT(with("LOBE_environment", json::object()).refusal(), HasSubstr("neither image nor radiance"));
+    EXPECT_THAT(with("LOBE_environment", json::object()).refusal(),
+                HasSubstr("neither image, radiance nor sky"));
     EXPECT_THAT(with("LOBE_environment", {{"radiance", {1, 1, 1}}, {"image", "a.hdr"}}).refusal(),
-                HasSubstr("both image and radiance"));
+                HasSubstr("more than one of image, radiance and sky"));
     EXPECT_THAT(with("LOBE_environment", {{"image", "../a.hdr"}}).refusal(), HasSubstr("../a.hdr"));
     EXPECT_THAT(with("LOBE_environment", {{"image", "missing.hdr"}}).refusal(), HasSubstr("missing.hdr"));
     EXPECT_THAT(with("LOBE_environment", {{"image", "data:,x"}, {"rotation", {0, 0, 0, 2}}}).refusal(),
                 HasSubstr("rotation: [0,0,0,2]; expected a unit quaternion"));
+}
+
+TEST(EnvironmentExtension, Sky) {
+    const Scene scene = with("LOBE_environment", {{"sky",
+                                                   {{"model", "preetham"},
+                                                    {"turbidity", 2.5},
+                                                    {"sunElevation", 0.5},
+                                                    {"sunAzimuth", -1.0},
+                                                    {"sunDiameter", 0.0},
+                                                    {"ground", {0.1, 0.2, 0.3}}}},
+                                                  {"intensity", 0.01},
+                                                  {"rotation", {0, 1, 0, 0}}})
+                            .import()
+                            .scene;
+    ASSERT_TRUE(scene.environment && scene.environment->source.sky);
+    const Sky& sky = *scene.environment->source.sky;
+    EXPECT_EQ(sky.model, SkyModel::preetham);
+    EXPECT_EQ(sky.turbidity, 2.5);
+    EXPECT_EQ(sky.sunElevation, 0.5);
+    EXPECT_EQ(sky.sunAzimuth, -1.0);
+    EXPECT_EQ(sky.sunDiameter, 0.0);
+    EXPECT_EQ(sky.ground, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.environment->intensity, 0.01);
+    EXPECT_EQ(scene.environment->worldFromMap * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1));
+    const auto refusal = [](const json& value) {
+        return with("LOBE_environment", {{"sky", value}}).refusal();
+    };
+    EXPECT_THAT(refusal({{"turbidity", 3}}), HasSubstr("sky.model"));
+    EXPECT_THAT(refusal({{"model", "hosek"}}), HasSubstr("preetham"));
+    EXPECT_THAT(refusal({{"model", "preetham"}, {"turbidity", 1.5}}), HasSubstr("turbidity: 1.5; expected"));
+    EXPECT_THAT(refusal({{"model", "preetham"}, {"sunElevation", -0.1}}),
+                HasSubstr("sunElevation: -0.1; expected"));
+    EXPECT_THAT(refusal({{"model", "preetham"}, {"sunElevation", 1.6}}),
+                HasSubstr("sunElevation: 1.6; expected"));
+}
+
+json nineCoefficients() {
+    return json(std::vector<std::vector<double>>(9, {0.1, 0.2, 0.3}));
+}
+
+Gltf imageBased(const json& light, const json& index = 0) {
+    Gltf gltf = with("EXT_lights_image_based", {{"light", index}});
+    gltf.doc["extensions"]["EXT_lights_image_based"]["lights"] = {light};
+    for (int i = 0; i < 6; ++i)
+        gltf.doc["images"].push_back({{"uri", "data:image/png;base64,eA=="}, {"name", std::to_string(i)}});
+    return gltf;
+}
+
+TEST(ImageBasedExtension, FacesOfTheFirstLevel) {
+    const Imported imported = imageBased({{"specularImages", {{5, 4, 3, 2, 1, 0}, {0, 0, 0, 0, 0, 0}}},
+                                          {"specularImageSize", 8},
+                                          {"irradianceCoefficients", nineCoefficients()},
+                                          {"intensity", 3},
+                                          {"rotation", {0, 1, 0, 0}}})
+                                  .import();
+    ASSERT_TRUE(imported.scene.environment && imported.scene.environment->source.imageBased);
+    const Environment& environment = *imported.scene.environment;
+    EXPECT_EQ(environment.source.imageBased->faces, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(environment.source.imageBased->harmonics.at(8), glm::dvec3(0.1, 0.2, 0.3));
+    ASSERT_EQ(imported.images.size(), 6U);
+    EXPECT_THAT(imported.images[0].name, HasSubstr("images[5]"));
+    EXPECT_EQ(environment.intensity, 3.0);
+    EXPECT_EQ(environment.worldFromMap * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1));
+    EXPECT_TRUE(imported.scene.warnings.empty());
+}
+
+TEST(ImageBasedExtension, WhatIsMissingOrWrongIsNamed) {
+    const Scene bare = imageBased({{"irradianceCoefficients", nineCoefficients()}}).import().scene;
+    EXPECT_TRUE(bare.environment->source.imageBased->faces.empty());
+    ASSERT_EQ(bare.warnings.size(), 1U);
+    EXPECT_THAT(bare.warnings[0], HasSubstr("lights[0]: has no specularImages"));
+    EXPECT_THAT(imageBased(json::object()).refusal(), HasSubstr("neither specularImages nor"));
+    EXPECT_THAT(imageBased({{"specularImages", {{0, 1, 2, 3, 4, 9}}}}).refusal(),
+                HasSubstr("specularImages[0][5]: 9"));
+    EXPECT_THAT(imageBased({{"specularImages", {{0, 1, 2}}}}).refusal(), HasSubstr("specularImages[0]"));
+    EXPECT_THAT(imageBased({{"irradianceCoefficients", {{1, 2, 3}}}}).refusal(),
+                HasSubstr("irradianceCoefficients"));
+    EXPECT_THAT(imageBased({{"irradianceCoefficients", nineCoefficients()}}, 3).refusal(),
+                HasSubstr("light: 3; expected the index of one of the 1 lights"));
+    EXPECT_THAT(
+        imageBased({{"irradianceCoefficients", nineCoefficients()}, {"rotation", {0, 0, 0, 2}}}).refusal(),
+        HasSubstr("rotation: [0,0,0,2]; expected a unit quaternion"));
+}
+
+TEST(ImageBasedExtension, OurOwnEnvironmentWins) {
+    Gltf gltf = imageBased({{"irradianceCoefficients", nineCoefficients()}});
+    gltf.doc["scenes"][0]["extensions"]["LOBE_environment"] = {{"radiance", {1, 2, 3}}};
+    const Scene scene = gltf.import().scene;
+    EXPECT_EQ(scene.environment->radiance, glm::dvec3(1, 2, 3));
+    ASSERT_FALSE(scene.warnings.empty());
+    EXPECT_THAT(scene.warnings.back(), HasSubstr("left out: the scene has a LOBE_environment too"));
 }
 
 TEST(FogExtension, IsReadAndMayBeNone) {

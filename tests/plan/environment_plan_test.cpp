@@ -38,6 +38,23 @@ TEST(EnvironmentPlan, AbsentWithoutOne) {
     EXPECT_EQ(reasonFor(plan, "light.environment"), "the scene has no environment");
 }
 
+TEST(EnvironmentPlan, SaysHowTheEnvironmentCameAbout) {
+    Scene scene = surrounded("lambert");
+    scene.environment->notes = {"the sun is taken out"};
+    EXPECT_THAT(planOf(scene).notes, testing::Contains("environment: the sun is taken out"));
+}
+
+TEST(EnvironmentPlan, APictureOfItsOwnBehindSurfacesLeavesTheOtherOut) {
+    Scene scene = surrounded("lambert");
+    scene.images.resize(2);
+    scene.environment->image = 0;
+    scene.environment->backgroundImage = 1;
+    const FramePlan plan = planOf(scene);
+    EXPECT_FALSE(plan.environmentMap);
+    ASSERT_NE(plan.pass("background"), nullptr);
+    EXPECT_THAT(plan.pass("background")->reason, HasSubstr("a picture of its own"));
+}
+
 TEST(EnvironmentPlan, PrefilteredNeedsNoRaysAndNoDirections) {
     const FramePlan plan = planOf(surrounded("metallic_roughness"));
     ASSERT_NE(plan.pass("light.environment"), nullptr);

@@ -52,7 +52,11 @@ Scene fullScene() {
     scene.instances = {{0, glm::dmat4(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16), "node"}};
     scene.lights = {{"l", LightType::spot, {1, 2, 3}, {0, 1, 0}, {4, 5, 6}, 7.0, 0.1, 0.2}, Light{}};
     scene.lights.push_back({"t", LightType::tube, {}, {}, {}, {}, 0, 0, {0, 0, 1}, 1, 2, 3, 4});
-    scene.environment = Environment{1, {1, 2, 3}, 4, glm::dmat3(1, 2, 3, 4, 5, 6, 7, 8, 9), false};
+    scene.environment = Environment{
+        1, {1, 2, 3}, 4, glm::dmat3(1, 2, 3, 4, 5, 6, 7, 8, 9), false, 3, false, 7, {}, {"a note"}};
+    scene.environment->source.sky =
+        Sky{SkyModel::gradient, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 2.5, 0.1, 0.2, 0.3};
+    scene.environment->source.imageBased = ImageBasedLight{{1, 2, 3, 4, 5, 6}, {{1, 2, 3}, {4, 5, 6}}};
     scene.fog = Fog{{1, 2, 3}, {4, 5, 6}, 7, 8, {0.1, 0.2, 0.3}, 0.9};
     scene.cameras = {{"c", glm::dmat4(2), true, 0.5, 1.5, 2, 3, 4, 5.0}, Camera{}};
     scene.ambientRadiance = glm::dvec3(1, 2, 3);
