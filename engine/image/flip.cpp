@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <mutex>
 #include <numbers>
+#include <thread>
+
+#include "base/thread_team.hpp"
 
 namespace lobe {
 namespace {
@@ -231,12 +235,18 @@ ExposureRange exposuresOf(const RgbPlanes& truth) {
 Plane hdrFlip(const RgbPlanes& test, const RgbPlanes& truth, double pixelsPerDegree) {
     const ExposureRange range = exposuresOf(truth);
     Plane worst(truth.rgb[0].size(), 0.0);
-    for (int i = 0; i < range.count; ++i) {
-        const double stops = range.start + i * (range.stop - range.start) / std::max(1, range.count - 1);
+    std::mutex mutex;
+    // Each exposure takes some twenty planes of memory: few at a time, whatever the number of cores.
+    constexpr unsigned kAtOnce = 4;
+    ThreadTeam team(std::clamp(std::thread::hardware_concurrency(), 1U, kAtOnce));
+    team.each(static_cast<size_t>(range.count), [&](size_t i) {
+        const double stops =
+            range.start + static_cast<double>(i) * (range.stop - range.start) / std::max(1, range.count - 1);
         const Plane one = flip(exposed(test, stops), exposed(truth, stops), pixelsPerDegree);
+        const std::lock_guard lock(mutex);
         for (size_t p = 0; p < worst.size(); ++p)
             worst[p] = std::max(worst[p], one[p]);
-    }
+    });
     return worst;
 }
 

@@ -142,6 +142,16 @@ void Planner::planEnvironmentPass() {
         if (!showsEnvironment(brdf.name)) continue;
         Defines defines = screenDefines(brdf.name);
         defines.merge(environmentDefines(brdf.name));
+        if (const auto area = plan_.areaMethods.find(brdf.name);
+            area != plan_.areaMethods.end() && area->second.method == AreaMethod::mirrored) {
+            // What a body hides of the environment is not to be seen beside it.
+            for (const auto& [type, count] : scene_.bodyLights)
+                defines[defineName(nameOf(type)) + "_LIGHTS"] = "1";
+            defines["MIRRORED_LIGHTS"] = "1";
+            defines["MIRRORED_TYPE"] = "-1";
+            defines["ENVIRONMENT_ALONE"] = "1";
+            if (plan_.lightImages && defines.contains("RECT_LIGHTS")) defines["RECT_IMAGES"] = "1";
+        }
         if (isPrefiltered(brdf.name)) {
             if (plan_.channel("occlusion") != nullptr) defines["OCCLUSION_TEXTURES"] = "1";
             if (plan_.occlusionSlices > 0) defines["AMBIENT_OCCLUSION"] = "1";

@@ -92,6 +92,24 @@ TEST(EnvironmentPictures, MirrorAndBackgroundAreTheMapItself) {
     EXPECT_LT(off, 2e-3);  // edges of lamps on either side of a pixel's ray
 }
 
+/// A light with a body before the environment hides it, deferred and forward.
+TEST(EnvironmentPictures, MirrorsShowBodiesBeforeTheEnvironment) {
+    Scene scene = ball({"mirror", 0.0, 1.0});
+    Light body;
+    body.type = LightType::sphere;
+    body.position = {1.5, 1.5, 3.0};
+    body.radius = 0.8;
+    body.intensity = glm::dvec3(0.5);
+    scene.lights.push_back(body);
+    const auto truths = truth(scene, 1e-3);
+    for (const Shading shading : {Shading::deferred, Shading::forward}) {
+        Quality quality = exact();
+        quality.shading = shading;
+        const auto [off, bias] = errorOf(drawn(scene, quality), truths);
+        EXPECT_LT(off, 4e-3) << "edges of lamps and of the body on either side of a pixel's ray";
+    }
+}
+
 TEST(EnvironmentPictures, DiffuseByHarmonicsIsClose) {
     const Scene scene = ball({"lambert", 1.0, 0.0});
     const auto truths = truth(scene, 2e-3);

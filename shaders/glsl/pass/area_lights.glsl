@@ -160,11 +160,9 @@ void area_offer(inout AreaNearest nearest, int type, samplerBuffer lights, int f
     } while (++i < end);
 }
 
-/// What an ideal mirror shows: the nearest body that the mirrored ray meets, if it is of the type MIRRORED_TYPE (-1: of
-/// any).
-vec3 mirrored_lights(LightReceiver r, MODEL_PARAMS params)
+/// The nearest body that a ray meets; of type -1: none.
+AreaNearest area_nearest(LightReceiver r, vec3 direction)
 {
-    vec3 direction = normalize(2.0 * r.wo.z * r.frame.n - r.wo_w);
     AreaNearest nearest = AreaNearest(AREA_MISSED, vec3(0.0), -1.0, -1);
 #ifdef RECT_LIGHTS
     area_offer(nearest, AREA_RECT, uRectLights, uRectFirst, uRectEnd, r, direction);
@@ -178,6 +176,15 @@ vec3 mirrored_lights(LightReceiver r, MODEL_PARAMS params)
 #ifdef TUBE_LIGHTS
     area_offer(nearest, AREA_TUBE, uTubeLights, uTubeFirst, uTubeEnd, r, direction);
 #endif
+    return nearest;
+}
+
+/// What an ideal mirror shows: the nearest body that the mirrored ray meets, if it is of the type MIRRORED_TYPE (-1: of
+/// any).
+vec3 mirrored_lights(LightReceiver r, MODEL_PARAMS params)
+{
+    vec3 direction = normalize(2.0 * r.wo.z * r.frame.n - r.wo_w);
+    AreaNearest nearest = area_nearest(r, direction);
     vec3 shown = nearest.radiance * model_mirror(r.wo.z, dot(r.wo.xy, r.wo.xy), params);
 #ifdef AREA_SHADOWS
     shown *= light_visibility_by_ray(nearest.slot, r, direction, nearest.type >= 0 ? nearest.distance : 0.0);

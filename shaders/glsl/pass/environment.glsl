@@ -5,7 +5,8 @@
 /// Lambert alone. ENVIRONMENT_WIDTHS: its width varies. ENVIRONMENT_SH: order of the harmonics that stand for a map of
 /// irradiance. ENVIRONMENT_SAMPLED: by directions, half of them drawn by brightness and the same for all pixels but for
 /// the place in the list, half drawn from a GGX lobe and a cosine; weighed by the balance heuristic (Veach and Guibas,
-/// SIGGRAPH 1995). ENVIRONMENT_MIRROR: the model mirrors. ENVIRONMENT_SHADOWS: rays find where it is blocked.
+/// SIGGRAPH 1995). ENVIRONMENT_MIRROR: the model mirrors; with MIRRORED_LIGHTS, lights with a body
+/// are before the environment. ENVIRONMENT_ALONE: these are not shown here. ENVIRONMENT_SHADOWS: rays find where it is blocked.
 #if defined(ENVIRONMENT_SAMPLED) || defined(ENVIRONMENT_MIRROR)
 #include "light/environment.glsl"
 #endif
@@ -27,6 +28,10 @@ vec3 environment_mirrored(LightReceiver r, MODEL_PARAMS params)
         return vec3(0.0);
     vec3 wi_w = normalize(2.0 * c * r.frame.n - r.wo_w);
     vec3 light = environment_radiance(wi_w) * model_mirror(c, dot(r.wo.xy, r.wo.xy), params);
+#ifdef MIRRORED_LIGHTS
+    if (area_nearest(r, wi_w).type >= 0)
+        return vec3(0.0);
+#endif
 #ifdef ENVIRONMENT_SHADOWS
     light *= environment_visible(r, wi_w);
 #endif

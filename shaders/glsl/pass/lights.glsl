@@ -223,7 +223,7 @@ vec3 all_lights(LightReceiver r, MODEL_PARAMS params)
 #ifdef SPOT_CLUSTERS
     sum += spot_lights_of_cluster(r, params);
 #endif
-#ifdef AREA_LIGHTS
+#if defined(AREA_LIGHTS) && !defined(ENVIRONMENT_ALONE)
     sum += all_area_lights(r, params);
 #endif
 #ifdef ENVIRONMENT_LIGHT
