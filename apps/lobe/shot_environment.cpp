@@ -118,6 +118,9 @@ void applyEnvironment(Scene& scene, const Settings& settings) {
         hash.add(std::as_bytes(std::span(both)));
         scene.contentHash = hash.hex();
     }
+    // Before what is made for the background: a sun is drawn into that alone.
+    if (const json& shown = settings.get("env_background"); !shown.is_null() && scene.environment)
+        scene.environment->background = shown != "hide";
     applySky(scene, settings);
     applySun(scene, settings);
     turnEnvironment(scene, glm::radians(settings.get("env_rotation").get<double>()));

@@ -35,6 +35,25 @@ SkyModel modelOf(const std::string& name) {
                                 : SkyModel::preetham;
 }
 
+const char* nameOf(SkyModel model) {
+    return model == SkyModel::constant ? "constant" : model == SkyModel::gradient ? "gradient" : "preetham";
+}
+
+/// Whether a sky is made by this key.
+bool reads(SkyModel model, std::string_view key) {
+    if (key == "sky_zenith") return model != SkyModel::preetham;
+    if (key == "sky_horizon") return model == SkyModel::gradient;
+    if (key == "sky_ground") return model != SkyModel::constant;
+    return model == SkyModel::preetham;
+}
+
+std::string modelsWith(std::string_view key) {
+    std::string names;
+    for (SkyModel model : {SkyModel::constant, SkyModel::gradient, SkyModel::preetham})
+        if (reads(model, key)) names += (names.empty() ? "sky " : " or ") + std::string(nameOf(model));
+    return names;
+}
+
 bool hasSky(const Scene& scene) {
     return scene.environment && scene.environment->source.sky;
 }
@@ -54,8 +73,15 @@ json skyChanges(const Scene& scene, const Settings& settings) {
         if (value.is_null()) continue;
         if (!sky)
             throw UsageError(std::string(key) + " without a sky; expected sky beside it, as --sky preetham");
+        const SkyModel chosen = model.is_null() ? scene.environment->source.sky->model : modelOf(model.get<std::string>());
+        if (!reads(chosen, key))
+            throw UsageError(std::string(key) + ": " + value.dump() + "; sky " + nameOf(chosen) +
+                             " has none: expected " + modelsWith(key));
         changes[key] = value;
     }
+    // A scene's own sky is made when it is loaded, and its background only if it is seen.
+    if (const json& shown = settings.get("env_background"); !shown.is_null() && sky)
+        changes["env_background"] = shown;
     if (const json& size = settings.get("sun_size"); !size.is_null() && sky) changes["sun_size"] = size;
     return changes;
 }

@@ -1,6 +1,7 @@
 #include "shot_sun.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
 
@@ -20,6 +21,12 @@ bool mirrors(const Scene& scene) {
     });
 }
 
+/// Whether the environment will be a picture that may have a sun in it.
+bool hasPicture(const Scene& scene, const Settings& settings) {
+    return !settings.get("env").is_null() || (settings.get("sky").is_null() && scene.environment &&
+                                              scene.environment->image >= 0 && !scene.environment->source.sky);
+}
+
 /// Two digits are enough of what people read.
 std::string rounded(double value) {
     char text[32];
@@ -31,10 +38,9 @@ std::string rounded(double value) {
 
 json sunChanges(const Scene& scene, const Settings& settings) {
     json changes = json::object();
-    const bool picture =
-        !settings.get("env").is_null() || (settings.get("sky").is_null() && scene.environment &&
-                                           scene.environment->image >= 0 && !scene.environment->source.sky);
-    if (!picture || settings.get("env_sun") == "keep") return changes;
+    if (settings.get("env_sun") == "keep") return changes;
+    // Asked for where there is no picture to take it out of, it is named in a warning.
+    if (!hasPicture(scene, settings) && settings.get("env_sun") == "auto") return changes;
     changes["env_sun"] = settings.get("env_sun");
     if (const json& size = settings.get("sun_size"); !size.is_null()) changes["sun_size"] = size;
     return changes;
@@ -43,6 +49,10 @@ json sunChanges(const Scene& scene, const Settings& settings) {
 void applySun(Scene& scene, const Settings& settings) {
     if (sunChanges(scene, settings).empty()) return;
     Environment& environment = *scene.environment;
+    if (environment.image < 0 || environment.source.sky) {
+        scene.warnings.emplace_back("env_sun take: the environment is no picture; no sun is taken out of it");
+        return;
+    }
     const EnvironmentMap map = EnvironmentMap::of(scene);
     const environment::Spot spot = environment::brightestSpot(map);
     const bool asked = settings.get("env_sun") == "take";
@@ -61,7 +71,9 @@ void applySun(Scene& scene, const Settings& settings) {
                                 rounded(100.0 * spot.share) + " % of all light from " +
                                 rounded(glm::degrees(2.0 * spot.radius)) +
                                 " degrees, nine tenths of it from " + rounded(glm::degrees(2.0 * spot.core)) +
-                                ", up to " + rounded(spot.contrast) + " times what is around it");
+                                (std::isfinite(spot.contrast)
+                                     ? ", up to " + rounded(spot.contrast) + " times what is around it"
+                                     : std::string(", nothing around it")));
     addSun(scene, sunLight(environment.worldFromMap * spot.direction, spot.irradiance * environment.intensity,
                            diameter, scene.bounds()));
     if (environment.background && environment.backgroundImage < 0)

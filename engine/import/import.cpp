@@ -273,8 +273,8 @@ private:
                 slot->texture = table.use(slot->texture);
             }
         }
-        readSurroundings(document_, table, result_.scene);
         addLights(table);
+        readSurroundings(document_, table, result_.scene);  // last, as faces of an environment are taken off again
         result_.scene.textures = std::move(table.textures);
         for (const EncodedImage& image : table.images) {
             result_.scene.imageNames.push_back(image.name);

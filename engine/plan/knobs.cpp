@@ -96,8 +96,10 @@ std::string withoutReach(const SceneSummary& scene, const Quality& quality) {
 
 /// Why no light casts a shadow whatever the quality.
 std::string withoutCasting(const SceneSummary& scene, const Quality&) {
-    if (lightsOf(scene) == 0) return "no light in the scene";
-    if (scene.shadowLights.empty()) return "no light of the scene casts shadows";
+    if (!scene.environment || !scene.environmentCastsShadow) {
+        if (lightsOf(scene) == 0) return "no light in the scene";
+        if (scene.shadowLights.empty()) return "no light of the scene casts shadows";
+    }
     return scene.castingTriangles == 0 ? "no surface of the scene casts shadows" : "";
 }
 

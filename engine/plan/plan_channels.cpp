@@ -264,7 +264,8 @@ void Planner::planVertexData() {
     if (!scene_.tangents) leaveOut("vertex data", "tangents", "no normal map and no anisotropic model");
     if (!scene_.vertexColors) leaveOut("vertex data", "colours", "no primitive has them");
     for (int set : {0, 1})
-        if (!scene_.uv[set])
+        if (std::none_of(plan_.surfaces.begin(), plan_.surfaces.end(),
+                         [set](const SurfaceFeatures& f) { return f.usesUv(set); }))
             leaveOut("vertex data", "UV set " + std::to_string(set), "no texture in use is placed by it");
 }
 

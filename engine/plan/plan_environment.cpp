@@ -54,7 +54,7 @@ void Planner::planEnvironmentShadow() {
         sought |= how.method != EnvironmentMethod::prefiltered ||
                   static_cast<bool>(requireBrdf(surface.brdf).mirror);
     }
-    std::string reason = whyNoShadow(scene_.environmentCastsShadow ? 1 : 0);
+    std::string reason = whyNoShadowOfEnvironment();
     if (reason.empty() && !sought)
         reason = plan_.environmentMethods.empty() ? "no surface shows it"
                                                   : "the map is integrated beforehand, as if nothing blocked it";

@@ -18,14 +18,38 @@ bool Planner::isPrefiltered(const std::string& model) const {
     return found != plan_.environmentMethods.end() && found->second.method == EnvironmentMethod::prefiltered;
 }
 
+std::string Planner::whyNoShadowOfEnvironment() const {
+    if (scene_.environmentCastsShadow) return whyNoShadow(1);
+    return "the scene is drawn as if nothing blocked its environment";
+}
+
 /// Why nothing dims what is prefiltered; empty if something may.
 std::string Planner::whyNoOcclusion() const {
     if (!scene_.environment) return "the scene has no environment";
-    if (const std::string reason = whyNoShadow(scene_.environmentCastsShadow ? 1 : 0); !reason.empty())
-        return reason;
+    if (const std::string reason = whyNoShadowOfEnvironment(); !reason.empty()) return reason;
     const bool any = std::any_of(scene_.surfaces.begin(), scene_.surfaces.end(),
                                  [this](const SurfaceFeatures& f) { return isPrefiltered(f.brdf); });
     return any ? "" : "no surface shows what is prefiltered of the environment";
+}
+
+/// Of the lines about textures (summary.cpp: "NAME: SLOT of N materials, SLOT of ...").
+void Planner::leaveOutOcclusionTextures() {
+    std::vector<std::string> kept;
+    for (const std::string& line : plan_.textures) {
+        const size_t colon = line.find(": ");
+        std::string uses;
+        for (size_t from = colon + 2; from < line.size();) {
+            const size_t end = std::min(line.find(", ", from), line.size());
+            const std::string use = line.substr(from, end - from);
+            if (!use.starts_with("occlusion of")) uses += (uses.empty() ? "" : ", ") + use;
+            from = end + 2;
+        }
+        if (uses.empty())
+            leaveOut("texture", line.substr(0, colon), "no material in use reads it");
+        else
+            kept.push_back(line.substr(0, colon) + ": " + uses);
+    }
+    plan_.textures = kept;
 }
 
 void Planner::planOcclusion() {
@@ -39,6 +63,7 @@ void Planner::planOcclusion() {
     if (!scene_.ambient && !plan_.occlusionTextures && !scene_.surfacesWithoutOcclusion.empty()) {
         plan_.surroundings = false;
         plan_.surfaces = scene_.surfacesWithoutOcclusion;
+        leaveOutOcclusionTextures();
     }
     if (!plan_.occlusionTextures && !(scene_.ambient && scene_.occlusion))
         leaveOut("texture", "occlusion",

@@ -101,7 +101,11 @@ void Planner::planBodyShadows() {
             leaveOut("shadow", nameOf(type), reason);
             continue;
         }
-        if (prefersMaps() && !mirrors) {
+        const bool sun = type == LightType::disk && scene_.environmentSunHasBody;
+        if (sun && !whyNoRays().empty())
+            throw ContextError("shadows of the sun as a disk: " + whyNoRays() +
+                               "; expected sun_size 0, of which there are maps, or shadows none");
+        if (prefersMaps() && !mirrors && !sun) {
             plan_.shadows[type] = PlannedShadow::maps;
             plan_.notes.push_back(
                 std::string("shadows of ") + nameOf(type) + " lights: maps about their centres, " +
@@ -113,7 +117,9 @@ void Planner::planBodyShadows() {
         }
         requireRays();
         plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: rays, " +
-                              (mirrors && prefersMaps() ? "as mirrors need them, " : "") +
+                              (mirrors && prefersMaps() ? "as mirrors need them, "
+                               : sun && prefersMaps()   ? "as the sun is too far away for maps about its centre, "
+                                                        : "") +
                               (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
                                                                       : "one to each point on them"));
     }

@@ -103,7 +103,9 @@ private:
     Defines environmentDefines(const std::string& model) const;
     void planEnvironmentPass();
     bool isPrefiltered(const std::string& model) const;
+    std::string whyNoShadowOfEnvironment() const;
     std::string whyNoOcclusion() const;
+    void leaveOutOcclusionTextures();
     void planOcclusion();
     void planOcclusionChannels();
     void planOcclusionPass();

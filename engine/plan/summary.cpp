@@ -146,6 +146,8 @@ void countLights(const Scene& scene, SceneSummary& summary) {
         summary.environmentOtherSeen = environment.background && environment.backgroundImage >= 0;
         summary.environmentCastsShadow = environment.castsShadow;
         summary.environmentNotes = environment.notes;
+        summary.environmentSunHasBody =
+            environment.sun >= 0 && scene.lights[static_cast<size_t>(environment.sun)].type == LightType::disk;
         if (environment.image >= 0) {
             const Bitmap& picture = scene.images[static_cast<size_t>(environment.image)];
             summary.environmentWidth = picture.width;

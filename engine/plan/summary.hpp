@@ -86,6 +86,7 @@ struct SceneSummary {
     bool environmentSeen = false;                     ///< where no surface is
     bool environmentOtherSeen = false;                ///< and then as another picture
     bool environmentCastsShadow = false;              ///< surfaces block it
+    bool environmentSunHasBody = false;               ///< a disk that is too far away for maps about its centre
     int environmentWidth = 0, environmentHeight = 0;  ///< of its picture, texels
     std::vector<std::string> environmentNotes;        ///< Environment::notes
     /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,

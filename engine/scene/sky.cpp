@@ -118,7 +118,8 @@ Bitmap skyPicture(const SkyRadiance& sky, int height, double sunDiameter) {
     picture.height = height;
     picture.channels = 3;
     picture.type = ComponentType::f32;
-    const double radius = sunDiameter / 2.0, texel = kPi / height;
+    // Of less than a texel no point might be seen: its light is then spread over one.
+    const double texel = kPi / height, radius = sunDiameter > 0.0 ? std::max(sunDiameter, texel) / 2.0 : 0.0;
     const double half = std::sin(radius);
     const glm::dvec3 disc = radius > 0.0 ? sky.sun() / (kPi * half * half) : glm::dvec3(0.0);
     const auto rows = static_cast<size_t>(height), columns = static_cast<size_t>(picture.width);

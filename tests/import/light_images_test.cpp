@@ -70,6 +70,23 @@ TEST(LightImageExtension, TheVisibleBodyShowsIt) {
     }
 }
 
+/// An environment's faces are taken off the end once they are one picture.
+TEST(LightImageExtension, ComesBeforeTheFacesOfAnEnvironment) {
+    const TemporaryFolder folder;
+    folder.write("panes.png", "bytes");
+    Gltf gltf = withImage({{"image", "panes.png"}});
+    gltf.doc["extensionsUsed"].push_back("EXT_lights_image_based");
+    gltf.doc["scenes"][0]["extensions"]["EXT_lights_image_based"] = {{"light", 0}};
+    gltf.doc["extensions"]["EXT_lights_image_based"]["lights"] = {
+        {{"specularImages", {{0, 1, 2, 3, 4, 5}}}, {"irradianceCoefficients", json(std::vector<std::vector<double>>(9, {0.1, 0.2, 0.3}))}}};
+    for (int i = 0; i < 6; ++i)
+        gltf.doc["images"].push_back({{"uri", "data:image/png;base64,eA=="}});
+    const Scene scene = importGltf(folder.write("scene.gltf", gltf.text()), {}).scene;
+    ASSERT_TRUE(scene.environment && scene.environment->source.imageBased);
+    EXPECT_EQ(scene.lights.at(0).image, 0);
+    EXPECT_EQ(scene.environment->source.imageBased->faces, (std::vector<int>{1, 2, 3, 4, 5, 6}));
+}
+
 TEST(LightImageExtension, DamageIsRefused) {
     EXPECT_THAT(withImage({{"image", "missing.png"}}).refusal(), HasSubstr("missing.png"));
     EXPECT_THAT(withImage({{"image", "../a.png"}}).refusal(), HasSubstr("../a.png"));

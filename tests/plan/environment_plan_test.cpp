@@ -77,7 +77,7 @@ TEST(EnvironmentPlan, OcclusionOnlyWhereSomethingIsPrefilteredAndBlocked) {
     const std::vector<std::pair<FramePlan, std::string>> without{
         {planOf(quad("metallic_roughness")), "no environment"},
         {planOf(scene, {.shadows = Shadows::none}), "shadows are off"},
-        {planOf(open), "casts none"},
+        {planOf(open), "as if nothing blocked"},
         {planOf(scene, {.envLighting = EnvironmentLighting::sampled}), "no surface shows what is prefiltered"},
         {planOf(surrounded("mirror")), "no surface shows what is prefiltered"},
         {planOf(scene, {.shading = Shading::forward}), "forward shading"},

@@ -139,7 +139,7 @@ vec3 environment_prefiltered(LightReceiver r, MODEL_PARAMS params)
     vec3 d = uEnvFromWorld * d_w;
 #ifdef ENVIRONMENT_OCCLUDED
     float roughness = model_roughness(params);
-    albedo *= occlusion_of_lobe(open, normalize(d_w), clamp(roughness * roughness, 0.0, 1.0));
+    albedo *= occlusion_of_lobe(open, r.frame.n, normalize(d_w), clamp(roughness * roughness, 0.0, 1.0));
 #endif
     sum += albedo * environment_layers(d, middle.z);
 #endif

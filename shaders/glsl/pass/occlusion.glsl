@@ -39,7 +39,7 @@ OpenCone occlusion_cone(vec3 n)
             count += 1.0;
         }
     }
-    cone.share /= count;  // the pixel itself is among them
+    cone.share = min(cone.share / count, 1.0);  // the pixel itself is among them
     cone.axis = dot(axis, axis) > 1e-12 ? normalize(axis) : n;
 #endif
 #ifdef OCCLUSION_TEXTURES
@@ -51,14 +51,23 @@ OpenCone occlusion_cone(vec3 n)
 OpenCone occlusion_cone(vec3 n) { return OpenCone(n, clamp(surface_occlusion(), 0.0, 1.0)); }
 #endif
 
-/// Share of a lobe about `middle`, unit, half of whose light is within the tangent 2 alpha / (1 - alpha^2) of it.
-float occlusion_of_lobe(OpenCone cone, vec3 middle, float alpha)
+/// Share of a cone of half-angle `lobe` about `middle` that is open.
+float occlusion_overlap(OpenCone cone, vec3 middle, float lobe)
 {
-    float open = acos(sqrt(1.0 - cone.share)), lobe = 2.0 * atan(max(alpha, 0.01));
+    float open = acos(sqrt(1.0 - cone.share));
     float apart = acos(clamp(dot(cone.axis, middle), -1.0, 1.0));
     float least = abs(open - lobe), most = open + lobe;
     float t = clamp((apart - least) / max(most - least, 1e-6), 0.0, 1.0);
     float overlap = 1.0 - t * t * (3.0 - 2.0 * t);  // of the smaller of the two
     float whole = 1.0 - cos(lobe), smaller = 1.0 - cos(min(open, lobe));
     return overlap * smaller / max(whole, 1e-6);
+}
+
+/// Share of a lobe about `middle`, unit, half of whose light is within the tangent 2 alpha / (1 - alpha^2) of it, of what of
+/// it is above the horizon about n.
+float occlusion_of_lobe(OpenCone cone, vec3 n, vec3 middle, float alpha)
+{
+    float lobe = 2.0 * atan(max(alpha, 0.01));
+    float above = occlusion_overlap(OpenCone(n, 1.0), middle, lobe);
+    return min(occlusion_overlap(cone, middle, lobe) / max(above, 1e-3), 1.0);
 }
