@@ -3,17 +3,36 @@
 #include <map>
 
 #include "drawing.hpp"
+#include "plan/area_forms.hpp"
 #include "plan/summary.hpp"
 #include "scenes.hpp"
+#include "support/scenes.hpp"
 
 namespace lobe::bench {
 namespace {
 
 constexpr int kFew = 1, kMany = 3;
 
-Scene withLights(const Scene& scene, LightType type, int count) {
+struct Kind {
+    LightType type;
+    const char* name;
+    bool image = false;
+};
+
+constexpr Kind kBodies[] = {{LightType::rect, "rect"},
+                            {LightType::rect, "rect with image", true},
+                            {LightType::disk, "disk"},
+                            {LightType::sphere, "sphere"},
+                            {LightType::tube, "tube"}};
+constexpr Kind kPoint = {LightType::point, "point"};
+
+Scene withLights(const Scene& scene, const Kind& kind, int count) {
+    const LightType type = kind.type;
     Scene result = scene;
     result.lights.clear();
+    if (kind.image)
+        test::addImage(result, 256, 128, 3,
+                       [](int x, int y, int c) { return (x * 7 + y * 13 + c * 50) % 256; });
     const Bounds bounds = scene.bounds();
     const glm::dvec3 half = (bounds.upper - bounds.lower) * 0.5;
     const double size = 0.2 * half.x;
@@ -28,6 +47,7 @@ Scene withLights(const Scene& scene, LightType type, int count) {
         light.height = light.length = size;
         light.radius = type == LightType::tube ? 0.1 * size : 0.5 * size;
         light.intensity = glm::dvec3(1.0);
+        if (kind.image) light.image = static_cast<int>(result.images.size()) - 1;
         result.lights.push_back(light);
     }
     return result;
@@ -50,32 +70,37 @@ std::vector<AreaLightTime> areaLightTimes(gl::Context& context, int width, int h
     std::vector<AreaLightTime> results;
     for (const char* model : {"lambert", "ggx", "phong"}) {
         const Scene scene = withBrdf(balls(8), requireBrdf(model));
-        std::map<std::tuple<LightType, std::string, int>, std::unique_ptr<Drawing>> drawings;
-        for (LightType type :
-             {LightType::point, LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
+        std::map<std::tuple<std::string, std::string, int>, std::unique_ptr<Drawing>> drawings;
+        const auto prepare = [&](const Kind& kind, const Method& method) {
+            for (int count : {kFew, kMany}) {
+                Quality quality{.samples = 1};
+                quality.areaLights = method.by;
+                quality.shadows = method.shadows;
+                drawings[{kind.name, method.name, count}] = std::make_unique<Drawing>(
+                    context, withLights(scene, kind, count), quality, width, height);
+            }
+        };
+        prepare(kPoint, kMethods[0]);
+        for (const Kind& kind : kBodies)
             for (const Method& method : kMethods)
-                for (int count : {kFew, kMany}) {
-                    Quality quality{.samples = 1};
-                    quality.areaLights = method.by;
-                    quality.shadows = method.shadows;
-                    if (type == LightType::point && method.shadows != Shadows::none) continue;
-                    drawings[{type, method.name, count}] = std::make_unique<Drawing>(
-                        context, withLights(scene, type, count), quality, width, height);
-                }
+                prepare(kind, method);
+        const auto forms = areaForms(scene);
+        const auto form = forms.find(model);
+        const bool closed = form != forms.end() && form->second.refusal.empty();
         for (int round = 0; round < rounds; ++round)
             for (auto& [key, drawing] : drawings)
                 drawing->draw();
-        const auto each = [&](LightType type, const std::string& method) {
-            return (drawings.at({type, method, kMany})->seconds() -
-                    drawings.at({type, method, kFew})->seconds()) *
+        const auto each = [&](const Kind& kind, const std::string& method) {
+            return (drawings.at({kind.name, method, kMany})->seconds() -
+                    drawings.at({kind.name, method, kFew})->seconds()) *
                    1e9 / ((kMany - kFew) * static_cast<double>(width) * height);
         };
-        const double point = each(LightType::point, "analytic");
-        for (LightType type : {LightType::rect, LightType::disk, LightType::sphere, LightType::tube})
+        const double point = each(kPoint, kMethods[0].name);
+        for (const Kind& kind : kBodies)
             for (const Method& method : kMethods) {
-                AreaLightTime time{model, nameOf(type), method.name, point, each(type, method.name), 0.0};
+                AreaLightTime time{model, kind.name, method.name, point, each(kind, method.name), 0.0};
                 // What has no closed form is sampled: the same again.
-                if (std::string(method.name) == "analytic" && std::string(model) != "lambert") continue;
+                if (std::string(method.name) == "analytic" && !closed) continue;
                 time.ratio = time.body / time.point;
                 results.push_back(time);
                 done(time);

@@ -122,11 +122,11 @@ void runAreaLights(const Settings& settings) {
     const int width = settings.resolution[0], height = settings.resolution[1];
     std::printf("%s, %s, %dx%d, ns a light and pixel, least of %d rounds\n", context->info().renderer.c_str(),
                 context->info().version.c_str(), width, height, settings.rounds);
-    std::printf("%-10s %-8s %-12s %9s %9s %7s\n", "model", "light", "method", "point", "body", "ratio");
+    std::printf("%-10s %-16s %-12s %9s %9s %7s\n", "model", "light", "method", "point", "body", "ratio");
     nlohmann::json report = {
         {"schema", 1}, {"renderer", context->info().renderer}, {"results", nlohmann::json::array()}};
     const auto print = [](const AreaLightTime& time) {
-        std::printf("%-10s %-8s %-12s %9.1f %9.1f %7.2f\n", time.model.c_str(), time.light.c_str(),
+        std::printf("%-10s %-16s %-12s %9.1f %9.1f %7.2f\n", time.model.c_str(), time.light.c_str(),
                     time.method.c_str(), time.point, time.body, time.ratio);
         std::fflush(stdout);
     };

@@ -220,12 +220,11 @@ const ObjectSchema& rootExtensions() {
          optional("spot", objectOf(spot)), optional("extensions", objectOf(lightExtensions))}};
     static const ObjectSchema lights{{required("lights", arrayOf(objectOf(light)))}};
     static const ObjectSchema rect{{optional("aspect", sizeInMetres())}};
-    static const ObjectSchema areaLight{{optional("name", text()),
-                                         required("type", oneOf(std::vector<std::string>{"rect", "disk"})),
-                                         optional("color", arrayOf(number(0.0, kLargest), 3, 3)),
-                                         optional("intensity", number(0.0, kLargest)),
-                                         optional("size", sizeInMetres()), optional("rect", objectOf(rect)),
-                                         optional("extensions", objectOf(areaLightExtensions))}};
+    static const ObjectSchema areaLight{
+        {optional("name", text()), required("type", oneOf(std::vector<std::string>{"rect", "disk"})),
+         optional("color", arrayOf(number(0.0, kLargest), 3, 3)),
+         optional("intensity", number(0.0, kLargest)), optional("size", sizeInMetres()),
+         optional("rect", objectOf(rect)), optional("extensions", objectOf(areaLightExtensions))}};
     static const ObjectSchema areaLights{{required("lights", arrayOf(objectOf(areaLight)))}};
     static const ObjectSchema imageBasedLight{
         {optional("name", text()), optional("rotation", numbers(4)),

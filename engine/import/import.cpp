@@ -264,8 +264,8 @@ private:
         }
     }
 
-    /// Materials have indices into the file's textures until here; only those that are drawn are read. Lights come
-    /// here, as images belong to them.
+    /// Materials have indices into the file's textures until here; only those that are drawn are read. Lights
+    /// come here, as images belong to them.
     void addImages() {
         TextureTable table(document_);
         for (Material& material : result_.scene.materials) {

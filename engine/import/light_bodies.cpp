@@ -17,7 +17,8 @@ void addPoint(Primitive& body, const glm::dvec3& position, const glm::dvec3& nor
     body.normals.emplace_back(normal);
 }
 
-/// x: along `axis`, z: the way that the light goes. Its image's left is where x is largest, its top where y is least.
+/// x: along `axis`, z: the way that the light goes. Its image's left is where x is largest, its top where y
+/// is least.
 Primitive rectBody(const Light& light) {
     Primitive body;
     const glm::dvec2 half(light.width / 2, light.height / 2);

@@ -59,7 +59,8 @@ void readShape(const Document& document, const json& shape, const std::string& p
 }
 
 /// LOBE_light_image. `source`: of the light, whose property is `property`.
-std::optional<NamedImage> readLightImage(const Document& document, const json& source, const std::string& property) {
+std::optional<NamedImage> readLightImage(const Document& document, const json& source,
+                                         const std::string& property) {
     const json* extension = findExtension(source, kLightImageExtension);
     if (extension == nullptr) {
         return std::nullopt;

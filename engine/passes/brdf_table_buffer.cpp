@@ -8,7 +8,8 @@
 namespace lobe {
 namespace {
 
-constexpr int kUnit = 15;
+/// Beyond those that other inputs take one after the other.
+constexpr int kUnit = 27;
 
 }  // namespace
 

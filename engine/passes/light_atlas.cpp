@@ -96,13 +96,13 @@ void LightAtlas::upload(const Scene& scene, int width, int height) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (std::max(width, height) > most)
-        throw InputError(scene.file + ": images on lights take a texture of " + std::to_string(width) + " x " +
-                         std::to_string(height) + " texels; expected at most " + std::to_string(most) +
-                         " a side, the driver's limit");
+        throw InputError(scene.file + ": images on lights take a texture of " + std::to_string(width) +
+                         " x " + std::to_string(height) + " texels; expected at most " +
+                         std::to_string(most) + " a side, the driver's limit");
     texture_ = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture_.id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, width, height, 0, GL_RGB, GL_FLOAT, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGB, GL_FLOAT, nullptr);
     for (const GLenum side : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(GL_TEXTURE_2D, side, GL_LINEAR);
     for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -122,8 +122,8 @@ glm::dvec4 LightAtlas::nameOf(const Light& light) const {
     const Key key = keyOf(scene_, light);
     const LightImageLayout& layout = layouts_.at(key);
     const glm::ivec2 corner = corners_.at(key);
-    return {corner.x + (layout.turn + 2) / 8.0, corner.y + (16 * layout.full.x + layout.full.y) / 256.0, layout.size.x,
-            layout.size.y};
+    return {corner.x + (layout.turn + 2) / 8.0, corner.y + (16 * layout.full.x + layout.full.y) / 256.0,
+            layout.size.x, layout.size.y};
 }
 
 void LightAtlas::bind(const gl::Program& program) const {

@@ -12,10 +12,11 @@
 
 namespace lobe {
 
-/// How an image lies in the texture: the image itself, and beside it, one below the other, its means over ever more parts
-/// (shaders/glsl/light/light_image.glsl). Level 0 is the mean of all; each has twice as many parts along each side as the
-/// one before, at most as many as texels; along the shorter side of a rect 4 or 16 times as long as wide, which cells are
-/// to be square on, only from level 2 or 4 on. The last is the image itself.
+/// How an image lies in the texture: the image itself, and beside it, one below the other, its means over
+/// ever more parts (shaders/glsl/light/light_image.glsl). Level 0 is the mean of all; each has twice as many
+/// parts along each side as the one before, at most as many as texels; along the shorter side of a rect 4 or
+/// 16 times as long as wide, which cells are to be square on, only from level 2 or 4 on. The last is the
+/// image itself.
 struct LightImageLayout {
     /// `aspect`: width / height of the rect.
     LightImageLayout(const glm::ivec2& imageSize, double aspect);
@@ -33,7 +34,8 @@ struct LightImageLayout {
 
 class LightAtlas {
 public:
-    /// Empty where the plan needs none. Throws InputError for images that the driver's largest texture cannot hold.
+    /// Empty where the plan needs none. Throws InputError for images that the driver's largest texture cannot
+    /// hold.
     LightAtlas(const Scene& scene, const FramePlan& plan);
 
     /// A light's image as shaders take it: light_image_of(). All 0 without an image.

@@ -68,17 +68,19 @@ void Planner::planLightImages() {
     const bool shown = std::any_of(scene_.surfaces.begin(), scene_.surfaces.end(),
                                    [&](const SurfaceFeatures& surface) { return showsBodies(surface.brdf); });
     if (scene_.lightImages.empty() || !shown)
-        return leaveOut("texture", "images on lights",
-                        scene_.lightImages.empty() ? "no light shows an image" : "no surface shows light of a body");
+        return leaveOut(
+            "texture", "images on lights",
+            scene_.lightImages.empty() ? "no light shows an image" : "no surface shows light of a body");
     plan_.lightImages = true;
     const bool prefiltered =
         std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(),
                     [](const auto& entry) { return entry.second.method != AreaMethod::mirrored; });
-    plan_.notes.push_back("images on lights: " + plural(static_cast<int>(scene_.lightImages.size()), "rect") + " (" +
-                          joined(scene_.lightImages) + "), in one texture" +
-                          (prefiltered ? "; surfaces show them blurred by what they reflect, from halves of them, "
-                                         "points on lights by what each point stands for"
-                                       : ", looked up where mirrored rays meet them"));
+    plan_.notes.push_back("images on lights: " + plural(static_cast<int>(scene_.lightImages.size()), "rect") +
+                          " (" + joined(scene_.lightImages) + "), in one texture" +
+                          (prefiltered
+                               ? "; surfaces show them blurred by what they reflect, from halves of them, "
+                                 "points on lights by what each point stands for"
+                               : ", looked up where mirrored rays meet them"));
 }
 
 void Planner::planBodyLights() {
@@ -98,7 +100,7 @@ void Planner::planBodyLights() {
         soft |= shadowed && plan_.quality.shadows == Shadows::soft;
         plan_.lightGroups.push_back(std::string(nameOf(type)) + ": " + plural(count, "light") +
                                     ", one loop over all" + (models.empty() ? "" : "; " + joined(models)));
-        requireFit(nameOf(type), count, 5);
+        requireFit(nameOf(type), count, type == LightType::rect && !scene_.lightImages.empty() ? 5 : 4);
     }
     planLightImages();
     const bool sampled =

@@ -25,7 +25,9 @@ BodyImage::BodyImage(const Bitmap& bitmap) : image_(bitmap) {
         return rgb.x + rgb.y + rgb.z;
     };
     // Within half a texel of a centre, the bilinear's mean takes an eighth of each neighbour.
-    const auto blurred = [](double before, double here, double after) { return (before + 6.0 * here + after) / 8.0; };
+    const auto blurred = [](double before, double here, double after) {
+        return (before + 6.0 * here + after) / 8.0;
+    };
     const auto across = [&](int x, int y) {
         return blurred(brightness(x - 1, y), brightness(x, y), brightness(x + 1, y));
     };
@@ -88,7 +90,8 @@ double BodyLamp::density(const glm::dvec3& direction) const {
 double BodyLamp::imageDensity(const glm::dvec3& direction, double distance) const {
     const double facing = -glm::dot(direction, light_.direction);
     if (!(facing > 0.0)) return 0.0;
-    return image_->density(place(direction, distance)) * distance * distance / (light_.width * light_.height * facing);
+    return image_->density(place(direction, distance)) * distance * distance /
+           (light_.width * light_.height * facing);
 }
 
 glm::dvec2 BodyLamp::place(const glm::dvec3& direction, double distance) const {

@@ -15,7 +15,8 @@ public:
     explicit BodyImage(const Bitmap& bitmap);
 
     const LightImage& image() const { return image_; }
-    /// A place for two numbers in [0, 1): uniform within squares about the texels, which are drawn by their mean.
+    /// A place for two numbers in [0, 1): uniform within squares about the texels, which are drawn by their
+    /// mean.
     glm::dvec2 draw(double u, double v) const;
     /// Density of draw() at a place, of unit square.
     double density(const glm::dvec2& place) const;

@@ -91,8 +91,7 @@ void DirectLight::addMirrored(const ShadingPoint& point, const Visibility& visib
     const bool blocked = body != nullptr ? body->castsShadow : scene_.environment->castsShadow;
     const double transmittance = blocked ? visible(direction, nearest) : 1.0;
     if (body != nullptr)
-        exact[static_cast<size_t>(sourceOf(body->type))] +=
-            reflectance * transmittance * radiance;
+        exact[static_cast<size_t>(sourceOf(body->type))] += reflectance * transmittance * radiance;
     else
         exact[static_cast<size_t>(Source::environment)] +=
             reflectance * transmittance * environment_->radiance(direction);

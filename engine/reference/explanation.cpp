@@ -17,7 +17,8 @@ Estimate lightAt(const Scene& scene, const EnvironmentMap* environment, const Sh
     Pcg32 random(1);
     Contributions exact{};
     Estimate sum;
-    for (const auto& integral : DirectLight(scene, environment).at(point, visible, random, exact)) {
+    const DirectLight lights(scene, environment);  // integrals refer to it
+    for (const auto& integral : lights.at(point, visible, random, exact)) {
         for (int i = 0; i < rounds; ++i)
             integral->refine();
         sum.mean += integral->estimate().mean;
@@ -97,6 +98,7 @@ Explanation explain(const PixelIntegrator& integrator, const Scene& scene, int x
             return shadows ? integrator.tracer().visibility(point, direction, distance) : 1.0;
         };
         Scene single;
+        single.images = scene.images;  // that lights show
         for (const Light& light : scene.lights) {
             single.lights = {light};
             LightShare share = shareOf(single, nullptr, shading, visible);

@@ -228,8 +228,8 @@ void add(CubatureResult& sum, const CubatureResult& one) {
     sum.converged &= one.converged;
 }
 
-/// What `view` shows of the lamp, `light` or a part of it, without shadows. `sharpness`: the power of e by which the
-/// lobe changes over it.
+/// What `view` shows of the lamp, `light` or a part of it, without shadows. `sharpness`: the power of e by
+/// which the lobe changes over it.
 CubatureResult unshadowed(const ShadingPoint& point, const Light& light, const BodyView& view,
                           const BodyLamp& lamp, double sharpness, double relativeError) {
     CubatureResult sum;
@@ -259,13 +259,14 @@ CubatureResult unshadowed(const ShadingPoint& point, const Light& light, const B
     return sum;
 }
 
-/// The part of a rect between the centres of four texels, or between them and its edges, where its image is smooth;
-/// nothing where it is black.
+/// The part of a rect between the centres of four texels, or between them and its edges, where its image is
+/// smooth; nothing where it is black.
 std::optional<Light> partOf(const Light& light, const LightImage& image, int x, int y) {
     const glm::dvec2 size(image.width(), image.height());
     const glm::dvec2 low = glm::max((glm::dvec2(x, y) - 0.5) / size, 0.0);
     const glm::dvec2 high = glm::min((glm::dvec2(x, y) + 0.5) / size, 1.0);
-    if (image.at(low) + image.at(high) + image.at({low.x, high.y}) + image.at({high.x, low.y}) == glm::dvec3(0.0))
+    if (image.at(low) + image.at(high) + image.at({low.x, high.y}) + image.at({high.x, low.y}) ==
+        glm::dvec3(0.0))
         return std::nullopt;
     const glm::dvec2 center = 0.5 * (low + high);
     Light part = light;
@@ -305,7 +306,8 @@ std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& li
     const glm::dvec3 radiance = bodyRadiance(light, point.position);
     const BodyLamp lamp(light, point.position, radiance, image);
     const BodyView& view = lamp.view();
-    if (view.patches() == 0 || (image != nullptr && image->black()) || radiance == glm::dvec3(0.0)) return nullptr;
+    if (view.patches() == 0 || (image != nullptr && image->black()) || radiance == glm::dvec3(0.0))
+        return nullptr;
     const Source source = sourceOf(light.type);
     std::unique_ptr<LightIntegral> integral;
     const double sharpness = point.brdf->lobeSharpness ? point.brdf->lobeSharpness(point.values) : 0.0;
@@ -314,7 +316,8 @@ std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& li
         const CubatureResult all =
             image != nullptr
                 ? unshadowedImage(point, light, image->image(), lamp, sharpness, effort.quadratureError)
-                : unshadowed(point, light, view, lamp, sharpness * view.angularRadius(), effort.quadratureError);
+                : unshadowed(point, light, view, lamp, sharpness * view.angularRadius(),
+                             effort.quadratureError);
         if (all.converged) {
             if (all.integral == glm::dvec3(0.0)) return nullptr;
             integral = std::make_unique<ShadowedIntegral>(source, at, effort.grid, lamp, all);

@@ -20,7 +20,8 @@ struct Scatterer {
     Pcg32& random;
 };
 
-/// Null where the light shows nothing to the point. `image`: of the light, or null; kept by reference, as the light is.
+/// Null where the light shows nothing to the point. `image`: of the light, or null; kept by reference, as the
+/// light is.
 std::unique_ptr<LightIntegral> bodyIntegral(const Scatterer& at, const Light& light, const BodyImage* image,
                                             Method method, const LightEffort& effort);
 

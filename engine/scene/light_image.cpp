@@ -16,10 +16,12 @@ struct Cover {
 };
 
 Cover coverOf(int texel, int size, int from) {
-    const double begin = static_cast<double>(texel) * from / size, end = static_cast<double>(texel + 1) * from / size;
+    const double begin = static_cast<double>(texel) * from / size,
+                 end = static_cast<double>(texel + 1) * from / size;
     Cover cover{static_cast<int>(begin), {}};
     for (int i = cover.first; i < from && i < end; ++i)
-        cover.shares.push_back((std::min(end, i + 1.0) - std::max(begin, static_cast<double>(i))) / (end - begin));
+        cover.shares.push_back((std::min(end, i + 1.0) - std::max(begin, static_cast<double>(i))) /
+                               (end - begin));
     return cover;
 }
 
@@ -38,7 +40,8 @@ LightImage::LightImage(const Bitmap& bitmap) : LightImage(bitmap.width, bitmap.h
 }
 
 glm::dvec3 LightImage::texel(int x, int y) const {
-    const float* rgb = values_.data() + 3 * (static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x));
+    const float* rgb =
+        values_.data() + 3 * (static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x));
     return {rgb[0], rgb[1], rgb[2]};
 }
 
@@ -47,8 +50,8 @@ glm::dvec3 LightImage::at(const glm::dvec2& place) const {
     const double v = std::clamp(place.y * height_ - 0.5, 0.0, height_ - 1.0);
     const int x = static_cast<int>(u), y = static_cast<int>(v);
     const int right = std::min(x + 1, width_ - 1), below = std::min(y + 1, height_ - 1);
-    return glm::mix(glm::mix(texel(x, y), texel(right, y), u - x), glm::mix(texel(x, below), texel(right, below), u - x),
-                    v - y);
+    return glm::mix(glm::mix(texel(x, y), texel(right, y), u - x),
+                    glm::mix(texel(x, below), texel(right, below), u - x), v - y);
 }
 
 LightImage LightImage::reduced(int width, int height) const {

@@ -123,7 +123,7 @@ struct Light {
     double radius = 0.0;      ///< disk, sphere, tube, metres
     double length = 0.0;      ///< tube: between the centres of its hemispherical ends, metres
     bool castsShadow = true;  ///< LOBE_shadow
-    int image = -1;  ///< rect: index into Scene::images of what multiplies its radiance (LightImage); -1: none
+    int image = -1;           ///< rect: index into Scene::images of its picture (LightImage); -1: none
 };
 
 constexpr bool isPunctual(LightType type) {

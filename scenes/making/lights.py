@@ -88,10 +88,10 @@ def screen():
     """A window of coloured glass, and one more behind the eye, light a floor of strips from matt to glossy, and balls."""
     g = Gltf()
     strips = (("chalk", {"model": "lambert", "diffuse": [0.7, 0.7, 0.7]}),
-              ("satin", {"model": "ggx", "diffuse": [0.1, 0.1, 0.1], "alphaX": 0.25, "alphaY": 0.25, "fresnel": {"type": "schlick", "f0": [0.5, 0.5, 0.5]}}),
-              ("polish", {"model": "cook_torrance", "m": 0.06, "fresnel": {"type": "metal", "name": "nickel"}}),
               ("lacquer", {"model": "phong", "diffuse": [0.15, 0.15, 0.15], "specular": [0.6, 0.6, 0.6], "shininess": 200, "normalization": "energy"}),
-              ("mirror", {"model": "mirror", "fresnel": {"type": "schlick", "f0": [0.7, 0.7, 0.7]}}))
+              ("polish", {"model": "cook_torrance", "m": 0.06, "fresnel": {"type": "metal", "name": "nickel"}}),
+              ("mirror", {"model": "mirror", "fresnel": {"type": "schlick", "f0": [0.7, 0.7, 0.7]}}),
+              ("satin", {"model": "ggx", "diffuse": [0.1, 0.1, 0.1], "alphaX": 0.25, "alphaY": 0.25, "fresnel": {"type": "schlick", "f0": [0.5, 0.5, 0.5]}}))
     positions, normals, uvs, indices = ground(1.0)
     for i, (name, brdf) in enumerate(strips):
         strip = [(0.56 * (x + 2 * i - 4) / 1.12, y, 2.6 * z) for x, y, z in positions]

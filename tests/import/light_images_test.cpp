@@ -31,7 +31,8 @@ TEST(LightImageExtension, IsReadBesideTheScene) {
     ASSERT_EQ(imported.images.size(), 1U);
     EXPECT_EQ(imported.images[0].bytes.size(), 5U);
     EXPECT_THAT(imported.images[0].name,
-                AllOf(HasSubstr("EXT_lights_area.lights[0].extensions.LOBE_light_image.image"), HasSubstr("panes.png")));
+                AllOf(HasSubstr("EXT_lights_area.lights[0].extensions.LOBE_light_image.image"),
+                      HasSubstr("panes.png")));
     EXPECT_THAT(imported.scene.textures, IsEmpty());
 
     folder.write("panes.png", "other");
@@ -53,8 +54,8 @@ TEST(LightImageExtension, LightsShareOne) {
 TEST(LightImageExtension, TheVisibleBodyShowsIt) {
     const TemporaryFolder folder;
     folder.write("panes.png", "bytes");
-    const Gltf gltf =
-        withImage({{"image", "panes.png"}}, "rect", {{"extensions", {{"LOBE_visible_light", json::object()}}}});
+    const Gltf gltf = withImage({{"image", "panes.png"}}, "rect",
+                                {{"extensions", {{"LOBE_visible_light", json::object()}}}});
     const Scene scene = importGltf(folder.write("scene.gltf", gltf.text()), {}).scene;
     ASSERT_EQ(scene.textures.size(), 1U);
     EXPECT_EQ(scene.textures[0].image, scene.lights.at(0).image);
@@ -65,7 +66,8 @@ TEST(LightImageExtension, TheVisibleBodyShowsIt) {
     // The corner at local +X, +Y is the picture's first texel.
     ASSERT_EQ(body.uvs[0].size(), 4U);
     for (size_t i = 0; i < 4; ++i) {
-        const glm::dvec3 world(scene.instances[1].worldFromLocal * glm::dvec4(glm::dvec3(body.positions[i]), 1.0));
+        const glm::dvec3 world(scene.instances[1].worldFromLocal *
+                               glm::dvec4(glm::dvec3(body.positions[i]), 1.0));
         EXPECT_EQ(body.uvs[0][i], glm::vec2(world.x > 0.0 ? 0.0F : 1.0F, world.y > 0.0 ? 0.0F : 1.0F));
     }
 }
@@ -93,7 +95,8 @@ TEST(LightImageExtension, DamageIsRefused) {
     EXPECT_THAT(withImage({{"image", 3}}).refusal(), HasSubstr("LOBE_light_image.image: 3; expected"));
     EXPECT_THAT(withImage(json::object()).refusal(), HasSubstr("LOBE_light_image.image: missing"));
     EXPECT_THAT(withImage({{"image", "a.png"}}, "disk").refusal(),
-                AllOf(HasSubstr("lights[0].extensions.LOBE_light_image"), HasSubstr("\"disk\""), HasSubstr("\"rect\"")));
+                AllOf(HasSubstr("lights[0].extensions.LOBE_light_image"), HasSubstr("\"disk\""),
+                      HasSubstr("\"rect\"")));
 }
 
 TEST(LightImageExtension, IsRefusedOnPunctualLights) {

@@ -44,7 +44,8 @@ TEST(LightImagePlan, OneDefineAndANote) {
             const FramePlan plan = planOf(lit(model, true), quality);
             EXPECT_TRUE(plan.lightImages) << model;
             EXPECT_TRUE(test::definesOf(plan).contains("RECT_IMAGES")) << model;
-            EXPECT_THAT(plan.notes, testing::Contains(testing::HasSubstr("images on lights: 1 rect (6 x 4 texels)")));
+            EXPECT_THAT(plan.notes,
+                        testing::Contains(testing::HasSubstr("images on lights: 1 rect (6 x 4 texels)")));
         }
 }
 

@@ -57,7 +57,8 @@ struct Error {
     bool bad = false;  ///< not finite or negative
 };
 
-inline Image drawn(const Scene& scene, const Quality& quality, AovSet aovs = {Aov::radiance, Aov::materialId}) {
+inline Image drawn(const Scene& scene, const Quality& quality,
+                   AovSet aovs = {Aov::radiance, Aov::materialId}) {
     RenderOptions options;
     options.width = kWidth;
     options.height = kHeight;

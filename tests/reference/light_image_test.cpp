@@ -26,7 +26,8 @@ Bitmap bitmapOf(int width, int height, const std::function<glm::vec3(int, int)>&
 }
 
 Bitmap colored() {
-    return bitmapOf(4, 3, [](int x, int y) { return glm::vec3(0.1 + 0.3 * x, 1.0 / (1 + y), (x * 7 + y * 5) % 4); });
+    return bitmapOf(
+        4, 3, [](int x, int y) { return glm::vec3(0.1 + 0.3 * x, 1.0 / (1 + y), (x * 7 + y * 5) % 4); });
 }
 
 Light rect() {
@@ -106,7 +107,8 @@ TEST(LightImages, OneColorIsALightOfThatColor) {
     }
 }
 
-/// A midpoint sum over the rect by area, written out: which way round the image is follows from the scene format alone.
+/// A midpoint sum over the rect by area, written out: which way round the image is follows from the scene
+/// format alone.
 TEST(LightImages, TheImageIsWhereTheFormatSays) {
     Bench bench("lambert", colored());
     Light& light = bench.scene.lights[0];
@@ -126,8 +128,8 @@ TEST(LightImages, TheImageIsWhereTheFormatSays) {
             sum += image.at({0.5 - x, 0.5 - y}) * (place.z * place.z / (d2 * d2));
         }
     const glm::dvec3 diffuse(bench.values[0], bench.values[1], bench.values[2]);
-    const glm::dvec3 expected = diffuse / 3.14159265358979323846 * light.intensity * sum * light.width * light.height /
-                                (1.0 * kSteps * kSteps);
+    const glm::dvec3 expected = diffuse / 3.14159265358979323846 * light.intensity * sum * light.width *
+                                light.height / (1.0 * kSteps * kSteps);
     const Estimate got = bench.integrate(Method::automatic, 0);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(got.mean[c], expected[c], 2e-5 * expected[c]) << c;
@@ -141,8 +143,8 @@ TEST(LightImages, AMirrorShowsThePlaceThatItsRayMeets) {
                               (at.y - 0.5) * light.height * glm::cross(light.direction, light.axis);
     const glm::dvec3 toLight = glm::normalize(target);
     bench.point.toEye = {-toLight.x, -toLight.y, toLight.z};
-    const glm::dvec3 expected =
-        bench.brdf.mirror(toLight.z, bench.values) * light.intensity * LightImage(bench.scene.images[0]).at(at);
+    const glm::dvec3 expected = bench.brdf.mirror(toLight.z, bench.values) * light.intensity *
+                                LightImage(bench.scene.images[0]).at(at);
     const Estimate got = bench.integrate(Method::automatic, 0);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(got.mean[c], expected[c], 1e-9);
@@ -152,13 +154,17 @@ TEST(LightImages, ShadowsCutThePartThatIsHidden) {
     for (const char* model : {"lambert", "ggx", "phong"}) {
         Bench bench(model, colored());
         const Visibility half = [](const glm::dvec3& d, double) { return d.x > -0.2 ? 1.0 : 0.0; };
-        expectEqual(bench.integrate(Method::automatic, 5, half), bench.integrate(Method::sampled, 6, half), model);
+        expectEqual(bench.integrate(Method::automatic, 5, half), bench.integrate(Method::sampled, 6, half),
+                    model);
     }
 }
 
 TEST(LightImages, DrawsHaveTheDensityThatIsSaid) {
-    const BodyImage image(bitmapOf(5, 4, [](int x, int y) { return glm::vec3(x == 3 && y == 1 ? 50.0F : 0.01F * static_cast<float>(x)); }));
-    // The mean of 1 / density over draws is the area of where they can be, here all of the square but what is black.
+    const BodyImage image(bitmapOf(5, 4, [](int x, int y) {
+        return glm::vec3(x == 3 && y == 1 ? 50.0F : 0.01F * static_cast<float>(x));
+    }));
+    // The mean of 1 / density over draws is the area of where they can be, here all of the square but what is
+    // black.
     Pcg32 random(3);
     double sum = 0.0, moment = 0.0;
     constexpr int kDraws = 200000;

@@ -132,7 +132,7 @@ vec3 light_image_mean(LightImage image, vec3 center, vec3 u, vec3 v, float k, ve
     float axis_across = length(axis);
     float least = atan(c_t - lu, h), greatest = atan(c_t + lu, h);
     bool broad = k < 1.5;
-    float breadth = broad ? 3.0 : 2.0;
+    float breadth = broad ? 3.0 : 2.4;
     // Linear filters reach farther than the cells' boxes: what is best differs with how fast a lobe falls off.
     float sharper = broad ? 0.0 : 0.5;
     vec2 count = vec2(nodes);

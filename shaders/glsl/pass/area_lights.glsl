@@ -228,14 +228,22 @@ AreaSample area_sample(int type, AreaView v, vec2 u)
 }
 
 #ifdef RECT_IMAGES
+#ifndef AREA_ANALYTIC
 uniform float uAreaPointsEver;  // in all jittered frames
+#endif
 
 /// What comes from a point of a rect, of its radiance: the picture blurred by the part of it that one of all the points
-/// stands for.
+/// stands for; where the closed form is multiplied by their share that arrives, of the points of this frame alone, as that
+/// share is of these.
 vec3 area_image(AreaLight light, AreaRectView view, vec2 u, AreaSample s)
 {
     float cosine = max(-dot(s.direction, light.facing), 1e-7);
-    float part = s.solid_angle * s.distance * s.distance / (cosine * uAreaPointsEver * 4.0 * light.a * light.b);
+#ifdef AREA_ANALYTIC
+    float points = float(uAreaPointsAll);
+#else
+    float points = uAreaPointsEver;
+#endif
+    float part = s.solid_angle * s.distance * s.distance / (cosine * points * 4.0 * light.a * light.b);
     LightImage image = light_image_of(light.image);
     float level = float(abs(image.turn)) - 0.5 - 0.5 * log2(clamp(part, 1e-20, 1.0));
     // Where it is so small that offsets would cancel, points are even in area.
