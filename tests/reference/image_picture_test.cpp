@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "body_pictures.hpp"
+#include "reference/explanation.hpp"
 
 namespace lobe::reference {
 namespace {
@@ -124,6 +125,23 @@ TEST(ImagePictures, LobesShowThePictureAsWellAsTheyShowTheLight) {
         EXPECT_FALSE(with.bad);
         EXPECT_LT(with.mean, without.mean + one.allowed) << name;
     }
+}
+
+/// A black picture with one bright texel, in 16 jittered frames with nothing in the way: the share of its light that
+/// arrives is all of it, though few points of any one frame meet the texel.
+TEST(ImagePictures, SoftShadowsOfNothingTakeNothing) {
+    Scene made = litBy("lambert", 64, 64, [](int x, int y) { return glm::vec3(x == 40 && y == 23 ? 1e3F : 0.0F); });
+    for (Instance& instance : made.instances)
+        instance.castsShadow = false;
+    test::addInstance(made, test::addQuad(made, 0, 1.0F),
+                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -1e3, 0.0)));
+    Quality quality = exact();
+    quality.samples = 16;
+    const Image open = drawn(made, quality);
+    quality.shadows = Shadows::soft;
+    const Image shadowed = drawn(made, quality);
+    for (size_t i = 0; i < open.values.size(); ++i)
+        ASSERT_NEAR(shadowed.values[i], open.values[i], 1e-3F * open.values[i] + 1e-6F) << i;
 }
 
 /// One colour all over is a light of that colour, to the last digits, by every method.
@@ -346,6 +364,21 @@ TEST(ImagePictures, NothingIsNegativeOrNotFinite) {
                     << extreme.name << " " << i;
         }
     }
+}
+
+/// Each light's share of a pixel, the picture's among them, adds up to the truth.
+TEST(ImagePictures, AreExplained) {
+    const auto made = std::make_shared<Scene>(litBy("lambert", 12, 8, panes));
+    const PixelIntegrator integrator(made, camera(), kWidth, kHeight, {});
+    Effort effort;
+    effort.relativeError = 0.005;
+    const Explanation explained = explain(integrator, *made, kWidth / 2, kHeight - 4, effort, true);
+    ASSERT_EQ(explained.surfaces.size(), 1U);
+    ASSERT_EQ(explained.surfaces[0].lights.size(), 1U);
+    const LightShare& share = explained.surfaces[0].lights[0];
+    EXPECT_GT(share.radiance.y, 0.0);
+    EXPECT_NEAR(share.radiance.y, explained.truth.total().y,
+                6.0 * std::hypot(share.error.y, std::sqrt(explained.truth.variance.y)) + 1e-9);
 }
 
 }  // namespace
