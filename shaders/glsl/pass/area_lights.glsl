@@ -5,6 +5,7 @@
 /// that arrives, so that only penumbrae are noisy; none of it where no point lights the surface. AREA_HARD_SHADOWS: one
 /// ray to the centre. AREA_MAP_SHADOWS: by a shadow map about the centre, as soft as of a sphere that is as large seen
 /// from the front; with AREA_POINT_SHADOWS as of a point. MIRRORED_LIGHTS: what an ideal mirror shows of them.
+/// RECT_IMAGES: rects may show a picture (light/light_image.glsl).
 ///
 /// Points: those of common/pixel_lattice.glsl, shifted from pixel to pixel and from light to light by a hash, and folded
 /// like a tent where what is integrated has ends (Hickernell, MCQMC 2000): smooth integrands then converge with the square of the number of points. Jittered frames go on where the last
@@ -233,8 +234,8 @@ uniform float uAreaPointsEver;  // in all jittered frames
 #endif
 
 /// What comes from a point of a rect, of its radiance: the picture blurred by the part of it that one of all the points
-/// stands for; where the closed form is multiplied by their share that arrives, of the points of this frame alone, as that
-/// share is of these.
+/// stands for, and half a level more, as points are not where its parts are. Where the closed form is multiplied by their
+/// share that arrives: of the points of this frame alone, as that share is of these.
 vec3 area_image(AreaLight light, AreaRectView view, vec2 u, AreaSample s)
 {
     float cosine = max(-dot(s.direction, light.facing), 1e-7);
