@@ -5,6 +5,7 @@
 
 #include "area_lights.hpp"
 #include "base/atomic_file.hpp"
+#include "environment_commands.hpp"
 #include "fog.hpp"
 #include "gl/context.hpp"
 #include "models.hpp"
@@ -166,6 +167,7 @@ void writeJson(const std::string& file, const nlohmann::json& report) {
 }
 
 void addCommands(CLI::App& app) {
+    addEnvironmentCommand(app);
     struct Command {
         const char* name;
         const char* help;
