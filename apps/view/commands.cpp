@@ -208,9 +208,10 @@ const std::vector<Command>& commandTable() {
 void handleKeys(Viewer& viewer, double seconds) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || ImGui::IsAnyItemActive()) return;
+    const std::optional<Window::Key> pressed = viewer.window.key();
     for (const Command& command : commandTable()) {
-        if (command.key == 0 || command.control != io.KeyCtrl || command.shift != io.KeyShift) continue;
-        if (!ImGui::IsKeyPressed(command.key, false)) continue;
+        if (!pressed || pressed->key != command.key) continue;
+        if (command.control != pressed->control || command.shift != pressed->shift) continue;
         // Arrows and Enter are ImGui's while one moves through its controls.
         const bool navigates =
             command.key == GLFW_KEY_LEFT || command.key == GLFW_KEY_RIGHT || command.key == GLFW_KEY_ENTER;

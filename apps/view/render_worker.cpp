@@ -15,7 +15,7 @@ namespace lobe::view {
 namespace {
 
 constexpr double kMovingMs = 50.0;  ///< of 1000 / 15, the rest being the window's own
-constexpr double kLeastScale = 0.125;
+constexpr double kLeastScale = 0.125, kScaleStep = 0.0625;
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -236,6 +236,19 @@ PictureMaker& madeIn(std::unique_ptr<PictureMaker>& maker, gl::Context& context,
 
 }  // namespace
 
+/// The largest size at which pictures come often enough, from what the last ones took.
+void RenderWorker::adapt(const Frame& frame) {
+    const double pixels = static_cast<double>(frame.image.pixelCount());
+    const double whole = static_cast<double>(frame.width) * frame.height;
+    const double share = msPerPixel_ > 0.0 ? 0.2 : 1.0;  // of the latest
+    setMs_ += share * (frame.setMs - setMs_);
+    msPerPixel_ += share * (frame.drawMs / pixels - msPerPixel_);
+    const double room = std::max(kMovingMs - setMs_, 0.2 * kMovingMs);
+    const double wanted = std::clamp(std::sqrt(room / (msPerPixel_ * whole)), kLeastScale, 1.0);
+    // In steps, so that the size does not change with each picture.
+    if (std::abs(wanted - movingScale_) > kScaleStep) movingScale_ = std::round(wanted / kScaleStep) * kScaleStep;
+}
+
 void RenderWorker::drawMain(Tools& tools, const FrameRequest& request) {
     setStatus("drawing");
     const auto compiling = [this](const std::string& name) {
@@ -246,7 +259,7 @@ void RenderWorker::drawMain(Tools& tools, const FrameRequest& request) {
         }
         setStatus("compiling program " + std::to_string(number) + ": " + name.substr(0, name.find(' ')));
     };
-    const double scale = request.moving ? movingScale_.load() : 1.0;
+    const double scale = request.moving ? movingScale_ : 1.0;
     std::optional<Frame> frame;
     const std::string error = errorOf([&] {
         const std::atomic<bool> never = false;  // pictures while moving are always shown
@@ -261,13 +274,7 @@ void RenderWorker::drawMain(Tools& tools, const FrameRequest& request) {
         return give(MainFrame{std::move(failed)});
     }
     if (!frame) return;  // a newer one is asked for
-    if (request.moving) {
-        const double factor = std::clamp(std::sqrt(kMovingMs / (frame->drawMs + frame->setMs)), 0.6, 1.3);
-        // In steps, so that the size does not change with each picture.
-        const double wanted = std::clamp(scale * factor, kLeastScale, 1.0);
-        if (wanted < scale * 0.95 || wanted > scale * 1.15)
-            movingScale_ = std::max(kLeastScale, std::floor(wanted * 16.0) / 16.0);
-    }
+    if (request.moving) adapt(*frame);
     give(MainFrame{std::move(*frame)});
 }
 

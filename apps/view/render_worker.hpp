@@ -72,12 +72,12 @@ public:
     /// "compiling pass/light.frag (3)", "drawing", or empty; and for how long, in seconds.
     std::pair<std::string, double> status() const;
     const gl::ContextInfo& info() const { return info_; }
-    double movingScale() const { return movingScale_; }
 
 private:
     struct Tools;
     void run(const gl::ContextRequest& context, std::function<void(std::exception_ptr)> started);
     bool next(Tools& tools);  ///< false at the end
+    void adapt(const Frame& frame);
     void drawMain(Tools& tools, const FrameRequest& request);
     void drawSecond(Tools& tools, const FrameRequest& request);
     void write(Tools& tools, const SaveRequest& request);
@@ -89,7 +89,8 @@ private:
     std::function<void()> wake_;
     gl::ContextInfo info_;
     std::atomic<bool> stop_ = false;
-    std::atomic<double> movingScale_ = 1.0;
+    double movingScale_ = 1.0;  ///< the drawing thread's, as are the costs of pictures while moving
+    double setMs_ = 0.0, msPerPixel_ = 0.0;
 
     mutable std::mutex mutex_;  ///< of all that follows
     std::condition_variable changed_;

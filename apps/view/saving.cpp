@@ -73,14 +73,9 @@ void Viewer::savePicture(const fs::path& file) {
 }
 
 void Viewer::saveWindow() {
-    Bitmap bitmap{0, 0, 3, ComponentType::u8, {}};
-    const std::vector<unsigned char> pixels = window.pixels(bitmap.width, bitmap.height);
-    bitmap.data.resize(pixels.size());
-    std::transform(pixels.begin(), pixels.end(), bitmap.data.begin(),
-                   [](unsigned char value) { return static_cast<std::byte>(value); });
     const fs::path file = freeName("_window.png");
     fs::create_directories(file.parent_path());
-    ImageFiles().write(file, bitmap, {});
+    ImageFiles().write(file, window.pixels(), {});
     say("wrote " + file.string());
 }
 

@@ -91,16 +91,16 @@ int Viewer::run() {
         const bool lively = camera.moving() || settle_ > 0;
         const bool waiting = !worker.status().first.empty() || !loading.loading().empty() ||
                              truth.state().running || explaining_.valid();
-        const std::vector<std::string> dropped = window.wait(lively ? 0.004 : waiting ? 0.1 : 0.25);
-        if (window.takeInput()) settle_ = 4;
+        const bool preliminary = requested_ && requested_->moving;  // the full picture is still to be asked for
+        const std::vector<std::string> dropped =
+            window.wait(lively ? 0.004 : preliminary ? 0.03 : waiting ? 0.1 : 0.25);
+        if (window.takeInput() || window.hasKeys()) settle_ = 4;
         for (const std::string& file : dropped)
             open(file);
         collect();
         watchFiles();
         const double now = seconds();
-        // What waits for its full picture has to be looked at again.
-        if (lastMoved >= 0.0 && now - lastMoved < 2.0 * kSettleSeconds) settle_ = std::max(settle_, 1);
-        if (settle_ == 0 && !waiting && !camera.moving() && !wantsSave) continue;
+        if (settle_ == 0 && !waiting && !preliminary && !camera.moving() && !wantsSave) continue;
         settle_ = std::max(0, settle_ - 1);
         const double passed = now - lastFrame_;
         lastFrame_ = now;
@@ -115,7 +115,7 @@ int Viewer::run() {
         }
         loadIfChanged();
         requestFrames();
-        window.endFrame();
+        window.endFrame(wantsSave);
         if (std::exchange(wantsSave, false)) attempt([this] { saveWindow(); });
     }
     return 0;

@@ -64,6 +64,7 @@ struct Ui {
          modelGrid = false, inspect = false;
     Panel panel = Panel::settings;
     bool panelAsked = false;  ///< by a command: its tab comes to the front
+    std::optional<Panel> panelShown;
     std::string openPath, savePath;
     std::string settingFilter;
     int material = -1, light = -1;

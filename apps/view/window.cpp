@@ -8,7 +8,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
+#include <deque>
+#include <utility>
 
 #include "base/error.hpp"
 #include "style.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 std::string lastError;
 std::vector<std::string> dropped;
+std::deque<Window::Key> keys;
 bool input = false;
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -66,7 +68,15 @@ void Window::startImGui() {
     });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { noteInput(window); });
     glfwSetWindowRefreshCallback(window_, noteInput);
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int, int, int, int) { noteInput(window); });
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+        const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+        // Letters that are typed into a field come as such.
+        const bool typed =
+            ImGui::GetIO().WantTextInput && key < GLFW_KEY_ESCAPE && (mods & GLFW_MOD_CONTROL) == 0;
+        if (action == GLFW_PRESS && key >= 0 && !modifier && !typed)
+            keys.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
+        noteInput(window);
+    });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned) { noteInput(window); });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) { noteInput(window); });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { noteInput(window); });
@@ -119,13 +129,36 @@ bool Window::takeInput() {
     return std::exchange(input, false);
 }
 
+bool Window::hasKeys() const {
+    return !keys.empty();
+}
+
 void Window::beginFrame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // Keys that were pressed and released since the last frame would be missed.
+    ImGuiIO& io = ImGui::GetIO();
+    const auto setModifiers = [&](bool control, bool shift) {
+        io.KeyCtrl = control;
+        io.KeyShift = shift;
+    };
+    if (key_ && glfwGetKey(window_, key_->key) == GLFW_RELEASE) {
+        io.KeysDown[key_->key] = false;
+        const auto held = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
+        setModifiers(held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+                     held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT));
+    }
+    key_.reset();
+    if (!keys.empty()) {
+        key_ = keys.front();
+        keys.pop_front();
+        io.KeysDown[key_->key] = true;
+        setModifiers(key_->control, key_->shift);
+    }
     ImGui::NewFrame();
 }
 
-void Window::endFrame() {
+void Window::endFrame(bool keepPixels) {
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
@@ -134,6 +167,7 @@ void Window::endFrame() {
     gl.clearColor(0.0F, 0.0F, 0.0F, 1.0F);
     gl.clear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    if (keepPixels) readPixels(width, height);
     glfwSwapBuffers(window_);
 }
 
@@ -144,18 +178,17 @@ float Window::pixelsPerPoint() const {
     return width > 0 && pixels > 0 ? static_cast<float>(pixels) / static_cast<float>(width) : 1.0F;
 }
 
-std::vector<unsigned char> Window::pixels(int& width, int& height) const {
-    glfwGetFramebufferSize(window_, &width, &height);
+void Window::readPixels(int width, int height) {
     const WindowGl& gl = windowGl();
     const size_t row = 3 * static_cast<size_t>(width);
-    std::vector<unsigned char> bottomUp(row * static_cast<size_t>(height)), result(bottomUp.size());
+    std::vector<std::byte> bottomUp(row * static_cast<size_t>(height));
     gl.pixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.readBuffer(GL_FRONT);
+    gl.readBuffer(GL_BACK);
     gl.readPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, bottomUp.data());
+    pixels_ = {width, height, 3, ComponentType::u8, std::vector<std::byte>(bottomUp.size())};
     for (size_t y = 0; y < static_cast<size_t>(height); ++y)
         std::copy_n(bottomUp.data() + y * row, row,
-                    result.data() + (static_cast<size_t>(height) - 1 - y) * row);
-    return result;
+                    pixels_.data.data() + (static_cast<size_t>(height) - 1 - y) * row);
 }
 
 }  // namespace lobe::view

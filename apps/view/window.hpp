@@ -1,9 +1,11 @@
 /// The window with its OpenGL context and Dear ImGui.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "image/image.hpp"
 
 struct GLFWwindow;
 
@@ -28,20 +30,32 @@ public:
     /// Whether there was input since the last call, after which ImGui needs some frames to settle.
     bool takeInput();
 
+    /// A key that was pressed, with what was held.
+    struct Key {
+        int key;  ///< GLFW's
+        bool control, shift;
+    };
+    /// The one that this frame is for: one a frame, however fast they come. ImGui sees it down.
+    const std::optional<Key>& key() const { return key_; }
+    bool hasKeys() const;  ///< more to come
+
     void beginFrame();
-    void endFrame();
+    void endFrame(bool keepPixels);
 
     float scale() const { return scale_; }  ///< of text and spacing against 96 dots an inch
     float pixelsPerPoint() const;           ///< framebuffer pixels a unit of ImGui
     GLFWwindow* handle() const { return window_; }
 
-    /// What is shown, 8-bit RGB, top row first. Width and height in framebuffer pixels.
-    std::vector<unsigned char> pixels(int& width, int& height) const;
+    /// What was shown by the last frame whose pixels were kept: 8-bit RGB, framebuffer pixels.
+    const Bitmap& pixels() const { return pixels_; }
 
 private:
     void startImGui();
+    void readPixels(int width, int height);
     GLFWwindow* window_ = nullptr;
     float scale_ = 1.0F;
+    std::optional<Key> key_;
+    Bitmap pixels_;
 };
 
 }  // namespace lobe::view

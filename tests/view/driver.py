@@ -1,6 +1,7 @@
 """Drives lobe-view as a person does: a display of its own, a real mouse and real keys, and looks at the screen.
 
 LOBE_VIEW_BIN and LOBE_BIN name the programs. Needs Xvfb and xdotool."""
+import ctypes
 import json
 import os
 import pathlib
@@ -20,11 +21,11 @@ SCENES = ROOT / "scenes"
 class Display:
     """An X server whose screen lies in a file."""
 
-    def __init__(self, width=1280, height=800, dpi=96):
+    def __init__(self, width=1280, height=800):
         self.folder = tempfile.mkdtemp(prefix="lobe-display-")
         read, write = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", self.folder, "-dpi", str(dpi),
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", self.folder, "-noreset",
              "-nolisten", "tcp"], pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as stream:
@@ -32,6 +33,18 @@ class Display:
         if not number:
             raise RuntimeError("Xvfb does not start")
         self.name = ":" + number
+
+    def set_dots_per_inch(self, dpi):
+        """As desktops tell it to programs."""
+        x11 = ctypes.CDLL("libX11.so.6")
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        x11.XDefaultRootWindow.restype = ctypes.c_ulong
+        display = ctypes.c_void_p(x11.XOpenDisplay(self.name.encode()))
+        root = ctypes.c_ulong(x11.XDefaultRootWindow(display))
+        text = f"Xft.dpi:\t{dpi}\n".encode()
+        resource_manager, string = ctypes.c_ulong(23), ctypes.c_ulong(31)
+        x11.XChangeProperty(display, root, resource_manager, string, 8, 0, text, len(text))
+        x11.XCloseDisplay(display)
 
     def close(self):
         self.server.terminate()
@@ -78,9 +91,10 @@ class View:
         self.environment = dict(os.environ, DISPLAY=self.display.name, XDG_CONFIG_HOME=str(self.home / "config"),
                                 XDG_CACHE_HOME=os.environ.get("LOBE_TEST_CACHE", str(self.home / "cache")), **(environment or {}))
         self.environment.pop("WAYLAND_DISPLAY", None)
-        self.process = subprocess.Popen(
-            [VIEW, *map(str, arguments), "--window", window, "--events", str(self.events_file), "--no-config"], cwd=self.cwd,
-            env=self.environment, stderr=open(self.home / "stderr", "wb"))
+        with open(self.home / "stderr", "wb") as stderr:
+            self.process = subprocess.Popen(
+                [VIEW, *map(str, arguments), "--window", window, "--events", str(self.events_file), "--no-config"], cwd=self.cwd,
+                env=self.environment, stderr=stderr)
         self.events, self.read_to = [], 0
         self.places = {}
 
@@ -168,12 +182,16 @@ class View:
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
 
     def focus(self):
-        name = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)], env=self.environment,
-                              capture_output=True, text=True).stdout.split()
-        if not name:
-            name = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "."], env=self.environment, capture_output=True,
-                                  text=True).stdout.split()
-        self.input("windowfocus", name[0])
+        """There is no window manager that would."""
+        deadline = time.monotonic() + 10
+        while True:
+            found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Lobe"], env=self.environment,
+                                   capture_output=True, text=True).stdout.split()
+            if found:
+                return self.input("windowfocus", "--sync", found[0])
+            if time.monotonic() > deadline:
+                raise AssertionError("there is no window")
+            time.sleep(0.1)
 
     def key(self, *keys):
         for key in keys:

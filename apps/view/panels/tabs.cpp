@@ -39,8 +39,8 @@ void drawPanels(Viewer& viewer) {
             viewer.mark(std::string("tab ") + nameOf(panel));
             if (!open) continue;
             if (!viewer.ui.panelAsked || asked) {
-                if (viewer.ui.panel != panel || asked) viewer.events.add("panel", {{"name", nameOf(panel)}});
-                viewer.ui.panel = panel;
+                if (viewer.ui.panelShown != panel) viewer.events.add("panel", {{"name", nameOf(panel)}});
+                viewer.ui.panelShown = viewer.ui.panel = panel;
             }
             kDraw[i](viewer);
             ImGui::EndTabItem();
