@@ -31,7 +31,8 @@ void nextCamera(Viewer& viewer) {
     size_t next = 0;
     for (size_t i = 0; i < cameras.size() && !viewer.document.pose(); ++i)
         if (present == cameras[i].name || present == std::to_string(i)) next = (i + 1) % cameras.size();
-    if (present.is_null() && !viewer.document.pose()) next = 1 % cameras.size();  // the first is shown already
+    if (present.is_null() && !viewer.document.pose())
+        next = 1 % cameras.size();  // the first is shown already
     viewer.resetCamera();
     viewer.attempt([&] { viewer.document.change("camera", std::to_string(next)); });
     viewer.say("camera " + std::to_string(next) + " '" + cameras[next].name + "'");
@@ -126,7 +127,7 @@ std::vector<Command> makeTable() {
          needsPicture},
         {"View", "Next camera of the scene", GLFW_KEY_C, false, false, nextCamera,
          [](const Viewer& v) {
-             return !v.document.scene()                  ? "no scene is open"
+             return !v.document.scene()                   ? "no scene is open"
                     : v.document.scene()->cameras.empty() ? "the scene has no camera"
                                                           : "";
          }},
@@ -141,7 +142,13 @@ std::vector<Command> makeTable() {
          needsPicture},
         {"View", "Show the picture", GLFW_KEY_B, false, false, [](Viewer& v) { v.ui.shown = {}; },
          needsPicture},
-        {"View", "Panels", GLFW_KEY_P, false, false, [](Viewer& v) { v.ui.panels = !v.ui.panels; }, {},
+        {"View",
+         "Panels",
+         GLFW_KEY_P,
+         false,
+         false,
+         [](Viewer& v) { v.ui.panels = !v.ui.panels; },
+         {},
          [](const Viewer& v) { return v.ui.panels; }},
         {"View", "Messages", GLFW_KEY_ESCAPE, false, false, [](Viewer& v) { v.showPanel(Panel::log); }},
 
@@ -151,8 +158,9 @@ std::vector<Command> makeTable() {
          [](Viewer& v) { v.compareWith({.with = Comparison::With::truth}); }, needsPicture},
         {"Compare", "Error against the truth", GLFW_KEY_T, false, true,
          [](Viewer& v) { v.compareWith({.with = Comparison::With::error}); }, needsPicture},
-        {"Compare", "All models", GLFW_KEY_M, false, false, [](Viewer& v) { v.ui.modelGrid = !v.ui.modelGrid; },
-         needsPicture, [](const Viewer& v) { return v.ui.modelGrid; }},
+        {"Compare", "All models", GLFW_KEY_M, false, false,
+         [](Viewer& v) { v.ui.modelGrid = !v.ui.modelGrid; }, needsPicture,
+         [](const Viewer& v) { return v.ui.modelGrid; }},
         {"Compare", "Explain a pixel", GLFW_KEY_I, false, false,
          [](Viewer& v) {
              v.ui.inspect = !v.ui.inspect;
@@ -160,13 +168,24 @@ std::vector<Command> makeTable() {
          },
          needsPicture, [](const Viewer& v) { return v.ui.inspect; }},
 
-        {"Help", "Keys", GLFW_KEY_H, false, false, [](Viewer& v) { v.ui.help = !v.ui.help; }, {},
+        {"Help",
+         "Keys",
+         GLFW_KEY_H,
+         false,
+         false,
+         [](Viewer& v) { v.ui.help = !v.ui.help; },
+         {},
          [](const Viewer& v) { return v.ui.help; }},
     };
     for (size_t i = 0; i < kPanelCount; ++i) {
         const auto panel = static_cast<Panel>(i);
-        table.push_back({"Panels", nameOf(panel), GLFW_KEY_1 + static_cast<int>(i), true, false,
-                         [panel](Viewer& v) { v.showPanel(panel); }, {},
+        table.push_back({"Panels",
+                         nameOf(panel),
+                         GLFW_KEY_1 + static_cast<int>(i),
+                         true,
+                         false,
+                         [panel](Viewer& v) { v.showPanel(panel); },
+                         {},
                          [panel](const Viewer& v) { return v.ui.panels && v.ui.panel == panel; }});
     }
     return table;
@@ -184,6 +203,32 @@ void fly(Viewer& viewer, double seconds) {
     if (way == glm::dvec3(0.0) || !viewer.takeCamera()) return;
     const double diametersPerSecond = ImGui::GetIO().KeyShift ? 1.0 : 0.25;
     viewer.camera.fly(way, diametersPerSecond * std::min(seconds, 0.1));
+}
+
+/// Named views of the scene, kept between runs.
+void drawViews(Viewer& viewer) {
+    if (!ImGui::BeginMenu("Kept views", viewer.document.scene() != nullptr)) return;
+    auto& views = viewer.preferences
+                      .views[std::filesystem::absolute(viewer.document.file()).lexically_normal().string()];
+    if (ImGui::MenuItem("Keep this view", nullptr, false, viewer.frame.has_value()) && viewer.takeCamera()) {
+        size_t number = 1;
+        while (views.contains("view " + std::to_string(number)))
+            ++number;
+        views["view " + std::to_string(number)] = viewer.camera.pose();
+    }
+    viewer.mark("menu Keep this view");
+    ImGui::Separator();
+    std::string removed;
+    for (const auto& [name, pose] : views) {
+        if (ImGui::MenuItem(name.c_str()) && viewer.frame) {
+            viewer.camera.adopt(pose, viewer.document.scene()->bounds());
+            viewer.document.setPose(pose);
+        }
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("right click: forget");
+        if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) removed = name;
+    }
+    views.erase(removed);
+    ImGui::EndMenu();
 }
 
 }  // namespace
@@ -221,7 +266,8 @@ void handleKeys(Viewer& viewer, double seconds) {
             viewer.say(command.name + ": " + reason);
         else
             command.run(viewer);
-        viewer.events.add("command", {{"name", command.name}, {"key", command.keyText()}, {"done", reason.empty()}});
+        viewer.events.add("command",
+                          {{"name", command.name}, {"key", command.keyText()}, {"done", reason.empty()}});
     }
     if (!io.KeyCtrl) fly(viewer, seconds);
 }
@@ -249,6 +295,7 @@ void drawMenus(Viewer& viewer) {
                 if (ImGui::MenuItem(file.c_str())) viewer.open(file);
             ImGui::EndMenu();
         }
+        if (std::string(menu) == "View") drawViews(viewer);
         ImGui::EndMenu();
     }
     ImGui::EndMainMenuBar();

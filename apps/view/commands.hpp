@@ -15,8 +15,9 @@ struct Command {
     int key = 0;       ///< GLFW's; 0: none
     bool control = false, shift = false;
     std::function<void(Viewer&)> run;
-    std::function<std::string(const Viewer&)> whyNot = {};  ///< why it would do nothing now; empty text: it would
-    std::function<bool(const Viewer&)> isOn = {};           ///< of what can be on and off
+    std::function<std::string(const Viewer&)> whyNot =
+        {};                                        ///< why it would do nothing now; empty text: it would
+    std::function<bool(const Viewer&)> isOn = {};  ///< of what can be on and off
 
     std::string keyText() const;  ///< "Ctrl+Shift+R"
 };

@@ -10,10 +10,11 @@
 
 namespace lobe::view {
 
-/// Values are shared and never change: a copy of the edits is cheap, and the same edits have the same pointers.
+/// Values are shared and never change: a copy of the edits is cheap, and the same edits have the same
+/// pointers.
 struct Edits {
     std::map<int, std::shared_ptr<const Material>> materials = {};  ///< by index, in place of the scene's
-    std::shared_ptr<const std::vector<Light>> lights = {};          ///< in place of all of the scene's; null: those
+    std::shared_ptr<const std::vector<Light>> lights = {};  ///< in place of all of the scene's; null: those
 
     bool empty() const { return materials.empty() && lights == nullptr; }
     bool operator==(const Edits&) const = default;

@@ -80,7 +80,8 @@ std::string decoded(const std::string& uri) {
 /// Files that the scene names go with it: no scene reaches out of its folder.
 class Companions {
 public:
-    Companions(fs::path source, std::string folder) : source_(std::move(source)), folder_(std::move(folder)) {}
+    Companions(fs::path source, std::string folder)
+        : source_(std::move(source)), folder_(std::move(folder)) {}
 
     void take(json& object, const char* key) {
         if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return;
@@ -122,13 +123,13 @@ void writeMaterials(json& gltf, const Scene& scene, const Edits& edits) {
             const size_t color = at("baseColor");
             json& glass = target["pbrMetallicRoughness"];
             glass["baseColorFactor"] =
-                json::array({material->values[color], material->values[color + 1], material->values[color + 2],
-                             static_cast<double>(material->alpha)});
+                json::array({material->values[color], material->values[color + 1],
+                             material->values[color + 2], static_cast<double>(material->alpha)});
             glass["metallicFactor"] = material->values[at("metallic")];
             glass["roughnessFactor"] = material->values[at("roughness")];
         }
-        const double strength = std::max({double{material->emission.r}, double{material->emission.g},
-                                          double{material->emission.b}, 1.0});
+        const double strength = std::max(
+            {double{material->emission.r}, double{material->emission.g}, double{material->emission.b}, 1.0});
         target["emissiveFactor"] = numbersOf(glm::dvec3(material->emission) / strength);
         if (strength > 1.0) {
             target["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
@@ -151,7 +152,7 @@ json punctual(const Light& light) {
     const bool isPoint =
         light.type == LightType::point || light.type == LightType::sphere || light.type == LightType::tube;
     json result = {{"name", light.name},
-                   {"type", isPoint                               ? "point"
+                   {"type", isPoint                         ? "point"
                             : light.type == LightType::spot ? "spot"
                                                             : "directional"},
                    {"color", color},
@@ -185,7 +186,8 @@ json area(const Light& light) {
 json matrixOf(const Light& light) {
     const glm::dvec3 z = -glm::normalize(light.direction);
     glm::dvec3 x = light.axis - z * glm::dot(light.axis, z);
-    if (!(glm::length(x) > 1e-9)) x = glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z);
+    if (!(glm::length(x) > 1e-9))
+        x = glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z);
     x = glm::normalize(x);
     const glm::dvec3 y = glm::cross(z, x);
     const glm::dvec3& p = light.position;
@@ -213,7 +215,8 @@ void writeLights(json& gltf, const std::vector<Light>& lights) {
             addUsed(gltf, "LOBE_shadow");
         }
         list.push_back(isArea ? area(light) : punctual(light));
-        if (light.type == LightType::sphere || light.type == LightType::tube) addUsed(gltf, "LOBE_light_shape");
+        if (light.type == LightType::sphere || light.type == LightType::tube)
+            addUsed(gltf, "LOBE_light_shape");
         roots.push_back(gltf["nodes"].size());
         gltf["nodes"].push_back(std::move(node));
     }
@@ -232,7 +235,8 @@ void writeLights(json& gltf, const std::vector<Light>& lights) {
 
 }  // namespace
 
-EditedGltf editedGltf(const fs::path& source, const Scene& scene, const Edits& edits, const std::string& folder) {
+EditedGltf editedGltf(const fs::path& source, const Scene& scene, const Edits& edits,
+                      const std::string& folder) {
     if (source.extension() == ".glb")
         throw InputError(source.string() + ": its buffers are inside it; expected a .gltf file to export");
     json gltf = json(app::readJsonFile(source));

@@ -12,7 +12,8 @@ struct Viewer;
 
 struct EditedGltf {
     nlohmann::ordered_json gltf;
-    std::vector<std::pair<std::filesystem::path, std::string>> files;  ///< to copy; to where, beside the result
+    std::vector<std::pair<std::filesystem::path, std::string>>
+        files;  ///< to copy; to where, beside the result
 };
 
 /// The file's own JSON with the edited materials and lights in place of its own. Geometry and pictures are

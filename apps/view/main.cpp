@@ -24,13 +24,18 @@ int run(const std::vector<std::string>& list) {
         app::printVersion("lobe-view");
         return 0;
     }
-    app::Arguments arguments("", "Look at scenes, turn them, and change every model, light and setting "
-                                 "(docs/view.md). Pictures without a display: lobe render.",
+    app::Arguments arguments("",
+                             "Look at scenes, turn them, and change every model, light and setting "
+                             "(docs/view.md). Pictures without a display: lobe render.",
                              "lobe-view");
     ViewerOptions options;
     std::string windowSize;
-    arguments.app().add_option("scene", options.scene, "glTF scene or folder; without one a gallery")->type_name("SCENE");
-    arguments.app().add_option("--window", windowSize, "size of the window; default as it was")->type_name("WxH");
+    arguments.app()
+        .add_option("scene", options.scene, "glTF scene or folder; without one a gallery")
+        ->type_name("SCENE");
+    arguments.app()
+        .add_option("--window", windowSize, "size of the window; default as it was")
+        ->type_name("WxH");
     arguments.app()
         .add_option("--events", options.eventsFile, "write a line of JSON for each thing that happens")
         ->type_name("FILE");

@@ -71,7 +71,8 @@ void openJson(Viewer& viewer, const fs::path& file) {
     if (content.is_object() && content.contains("shots")) {
         viewer.batch = app::shotsOfBatch(file, viewer.options.sources);
         viewer.batchIndex = 0;
-        viewer.say(file.string() + ": " + std::to_string(viewer.batch.size()) + " shots; the arrow keys step");
+        viewer.say(file.string() + ": " + std::to_string(viewer.batch.size()) +
+                   " shots; the arrow keys step");
         const app::Shot& first = viewer.batch.front();
         return openScene(viewer, first.scene, {{first.settings->toJson(), file.string()}});
     }
@@ -120,8 +121,9 @@ void Viewer::open(const std::string& file) {
         } else if (extension == ".json") {
             openJson(*this, path);
         } else {
-            throw InputError(file + ": of unknown kind '" + extension +
-                             "'; expected .gltf, .glb, .hdr, .exr, .png, .jpg, .webp, .glsl, .binary or .json");
+            throw InputError(
+                file + ": of unknown kind '" + extension +
+                "'; expected .gltf, .glb, .hdr, .exr, .png, .jpg, .webp, .glsl, .binary or .json");
         }
     });
 }

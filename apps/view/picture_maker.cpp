@@ -23,7 +23,10 @@ PictureMaker::PictureMaker(gl::Context& context, std::function<void(const std::s
 
 std::unique_ptr<Renderer> PictureMaker::freshRenderer() {
     auto renderer = std::make_unique<Renderer>(context_);
-    renderer->onCompile(compiling_);
+    renderer->onCompile([this](const std::string& name) {
+        if (stop_ != nullptr && *stop_) throw Stopped();  // what was compiled is kept
+        if (compiling_) compiling_(name);
+    });
     return renderer;
 }
 
@@ -81,6 +84,22 @@ void PictureMaker::set(const RenderOptions& options) {
 
 std::optional<Frame> PictureMaker::make(const FrameRequest& request, double scale,
                                         const std::atomic<bool>& stop) {
+    stop_ = &stop;
+    try {
+        std::optional<Frame> frame = tryToMake(request, scale, stop);
+        stop_ = nullptr;
+        return frame;
+    } catch (const Stopped&) {
+        stop_ = nullptr;
+        return {};
+    } catch (...) {
+        stop_ = nullptr;
+        throw;
+    }
+}
+
+std::optional<Frame> PictureMaker::tryToMake(const FrameRequest& request, double scale,
+                                             const std::atomic<bool>& stop) {
     Frame frame;
     frame.number = request.number;
     frame.moving = request.moving;

@@ -16,7 +16,8 @@ public:
     PictureMaker(gl::Context& context, std::function<void(const std::string&)> compiling);
 
     /// The picture, with `scale` times the width and height that are asked for, and one sample a pixel if the
-    /// request is moving. Nothing if `stop` was set meanwhile. Throws Error; the next call starts afresh then.
+    /// request is moving. Nothing if `stop` was set meanwhile, which is looked at between programs that are
+    /// compiled and between passes. Throws Error; the next call starts afresh then.
     std::optional<Frame> make(const FrameRequest& request, double scale, const std::atomic<bool>& stop);
 
     /// Compiles all programs from their files again. Throws ShaderError, and then goes on with the old ones.
@@ -25,6 +26,8 @@ public:
     const Scene& scene() const { return *scene_; }
 
 private:
+    struct Stopped {};
+    std::optional<Frame> tryToMake(const FrameRequest& request, double scale, const std::atomic<bool>& stop);
     void compose(const FrameRequest& request);
     void set(const RenderOptions& options);
     std::unique_ptr<Renderer> freshRenderer();
@@ -32,6 +35,7 @@ private:
     gl::Context& context_;
     std::function<void(const std::string&)> compiling_;
     std::unique_ptr<Renderer> renderer_;
+    const std::atomic<bool>* stop_ = nullptr;  ///< of the present picture
 
     std::shared_ptr<const Scene> base_;
     std::shared_ptr<Scene> scene_;  ///< nobody else's, so that it may change

@@ -68,8 +68,9 @@ Preferences Preferences::load() {
 void Preferences::save() const {
     const fs::path file = fileOfUser();
     if (file.empty()) return;
-    json stored = {{"recent", recent}, {"width", width},   {"height", height}, {"panel_width", panelWidth},
-                   {"panels", panels}, {"folder", folder}, {"views", json::object()}};
+    json stored = {{"recent", recent},          {"width", width},   {"height", height},
+                   {"panel_width", panelWidth}, {"panels", panels}, {"folder", folder},
+                   {"views", json::object()}};
     for (const auto& [scene, named] : views)
         for (const auto& [name, pose] : named)
             stored["views"][scene][name] = {{"position", vectorOf(pose.position)},

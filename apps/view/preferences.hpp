@@ -20,8 +20,8 @@ struct Preferences {
 
     void addRecent(const std::string& file);
 
-    /// From $XDG_CONFIG_HOME/lobe/view.json, else ~/.config/lobe/view.json. What is absent or damaged is as at
-    /// first.
+    /// From $XDG_CONFIG_HOME/lobe/view.json, else ~/.config/lobe/view.json. What is absent or damaged is as
+    /// at first.
     static Preferences load();
     void save() const;  ///< failing is no error
 };

@@ -74,8 +74,7 @@ RenderWorker::~RenderWorker() {
     thread_.join();
 }
 
-void RenderWorker::run(const gl::ContextRequest& request,
-                       std::function<void(std::exception_ptr)> started) {
+void RenderWorker::run(const gl::ContextRequest& request, std::function<void(std::exception_ptr)> started) {
     Tools tools;
     try {
         tools.context = gl::Context::create(request);
@@ -222,8 +221,9 @@ void RenderWorker::reloadAll(Tools& tools) {
     // Made afresh when they are needed.
     tools.other.reset();
     tools.small.reset();
-    give(Notice{error.empty() ? "shaders reloaded" : "shaders not reloaded, the last good ones stay: " + error,
-                !error.empty()});
+    give(
+        Notice{error.empty() ? "shaders reloaded" : "shaders not reloaded, the last good ones stay: " + error,
+               !error.empty()});
 }
 
 namespace {
@@ -246,7 +246,8 @@ void RenderWorker::adapt(const Frame& frame) {
     const double room = std::max(kMovingMs - setMs_, 0.2 * kMovingMs);
     const double wanted = std::clamp(std::sqrt(room / (msPerPixel_ * whole)), kLeastScale, 1.0);
     // In steps, so that the size does not change with each picture.
-    if (std::abs(wanted - movingScale_) > kScaleStep) movingScale_ = std::round(wanted / kScaleStep) * kScaleStep;
+    if (std::abs(wanted - movingScale_) > kScaleStep)
+        movingScale_ = std::round(wanted / kScaleStep) * kScaleStep;
 }
 
 void RenderWorker::drawMain(Tools& tools, const FrameRequest& request) {
@@ -312,7 +313,8 @@ void RenderWorker::write(Tools& tools, const SaveRequest& request) {
         std::map<std::string, std::string> metadata =
             app::metadataOf(app::recordOf(shot, maker.scene(), frame->camera, info_));
         if (!whole.edits.empty()) metadata.erase(app::kRecordKey);
-        if (request.output.has_parent_path()) std::filesystem::create_directories(request.output.parent_path());
+        if (request.output.has_parent_path())
+            std::filesystem::create_directories(request.output.parent_path());
         app::writePicture(shot, frame->image, metadata, tools.files);
     });
     give(error.empty() ? Notice{"wrote " + name, false} : Notice{name + ": " + error, true});
@@ -328,8 +330,8 @@ void RenderWorker::drawSmall(Tools& tools, const ThumbnailRequest& request) {
             made.bitmap = tools.store.find(frame.file, tools.files);
             if (!made.bitmap.data.empty()) return;
             setStatus("drawing " + frame.file.filename().string() + " for the gallery");
-            frame.base =
-                std::make_shared<const Scene>(tools.loader.load(frame.file, app::loadOptionsOf(*frame.settings)));
+            frame.base = std::make_shared<const Scene>(
+                tools.loader.load(frame.file, app::loadOptionsOf(*frame.settings)));
         } else {
             setStatus("drawing " + request.key);
         }

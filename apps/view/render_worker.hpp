@@ -20,7 +20,7 @@ namespace lobe::view {
 
 /// A small picture of a scene, or of the present one under other settings.
 struct ThumbnailRequest {
-    std::string key;  ///< under which it is asked for and given
+    std::string key;     ///< under which it is asked for and given
     FrameRequest frame;  ///< without `base`: loaded from its file, and kept on disk
 };
 

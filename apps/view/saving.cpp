@@ -29,8 +29,9 @@ json changedSettings(const app::Settings& settings) {
 
 /// As shells read it.
 std::string quoted(const std::string& text) {
-    if (!text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                                "_-+=./,:%@") == std::string::npos)
+    if (!text.empty() &&
+        text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                               "_-+=./,:%@") == std::string::npos)
         return text;
     std::string result = "'";
     for (const char c : text)
@@ -103,7 +104,8 @@ std::string Viewer::commandLine() const {
 void Viewer::useState(const std::string& text, const std::string& origin) {
     attempt([&] {
         const json values = json::parse(text, nullptr, false);
-        if (!values.is_object()) throw UsageError(origin + ": is no state; expected a JSON object of settings");
+        if (!values.is_object())
+            throw UsageError(origin + ": is no state; expected a JSON object of settings");
         truth.stop();
         worker.whileIdle([&] { document.changeAll(values, origin); });
         camera.forget();
@@ -129,8 +131,8 @@ void exportEdited(Viewer& viewer, const fs::path& file) {
     facts.lights = viewer.drawn()->lights;
     facts.file = viewer.document.file().string();
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    const EditedGltf made = editedGltf(viewer.document.file(), facts, viewer.document.edits(),
-                                       file.stem().string() + "_files");
+    const EditedGltf made =
+        editedGltf(viewer.document.file(), facts, viewer.document.edits(), file.stem().string() + "_files");
     for (const auto& [from, to] : made.files) {
         fs::create_directories((folder / to).parent_path());
         fs::copy_file(from, folder / to, fs::copy_options::overwrite_existing);
@@ -157,8 +159,8 @@ void Viewer::explainPixel(double x, double y) {
                     if (const Brdf* brdf = findBrdf(material.brdf)) requireTwin(*brdf);
                 const RenderOptions size = app::renderOptionsOf(*settings);
                 const bool shadows = app::truthHasShadows(*settings);
-                const reference::PixelIntegrator integrator(scene, app::cameraOf(*base, *settings, 0), size.width,
-                                                            size.height, {.shadows = shadows});
+                const reference::PixelIntegrator integrator(scene, app::cameraOf(*base, *settings, 0),
+                                                            size.width, size.height, {.shadows = shadows});
                 reference::Effort effort;
                 effort.relativeError = 0.003;
                 effort.mostRays = 1 << 16;

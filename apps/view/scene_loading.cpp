@@ -2,8 +2,7 @@
 
 namespace lobe::view {
 
-SceneLoading::SceneLoading(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this] { run(); }) {}
+SceneLoading::SceneLoading(std::function<void()> wake) : wake_(std::move(wake)), thread_([this] { run(); }) {}
 
 SceneLoading::~SceneLoading() {
     {

@@ -8,6 +8,7 @@
 namespace lobe::view {
 namespace {
 
+constexpr int kFirstPart = 4;  ///< of width and height
 constexpr double kRounds[] = {0.2, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
 }  // namespace
@@ -56,11 +57,17 @@ void TruthWorker::run(const TruthSubject& subject) {
             options.quality.samples > 1 ? reference::PixelFilter::box : reference::PixelFilter::point;
         request.options.shadows = app::truthHasShadows(*subject.settings);
         request.threads = std::max(1u, std::thread::hardware_concurrency() - 1);  // one is the window's
-        std::shared_ptr<const Image> best;
-        for (const double error : kRounds) {
+        const auto give = [&](std::shared_ptr<const Image> image, double error) {
+            change([&](TruthState& state) {
+                state.image = std::move(image);
+                state.relativeError = error;
+                ++state.rounds;
+            });
+        };
+        const auto compute = [&](double error, const Image* earlier) {
             request.relativeError = error;
-            reference::TruthResult result = reference::computeTruth(
-                scene, camera, request, best.get(), stop_,
+            return reference::computeTruth(
+                scene, camera, request, earlier, stop_,
                 [&](const reference::TruthProgress& progress) {
                     change([&](TruthState& state) {
                         state.aim = error;
@@ -68,13 +75,21 @@ void TruthWorker::run(const TruthSubject& subject) {
                     });
                 },
                 [](const Image&) {});
+        };
+        // A small one first, for something to look at.
+        request.width = std::max(1, options.width / kFirstPart);
+        request.height = std::max(1, options.height / kFirstPart);
+        reference::TruthResult first = compute(kRounds[0], nullptr);
+        if (!stop_) give(std::make_shared<const Image>(std::move(first.image)), first.relativeError);
+        request.width = options.width;
+        request.height = options.height;
+        std::shared_ptr<const Image> best;
+        for (const double error : kRounds) {
+            if (stop_) break;
+            reference::TruthResult result = compute(error, best.get());
             if (stop_) break;
             best = std::make_shared<const Image>(std::move(result.image));
-            change([&](TruthState& state) {
-                state.image = best;
-                state.relativeError = result.relativeError;
-                ++state.rounds;
-            });
+            give(best, result.relativeError);
         }
     } catch (const std::exception& error) {
         change([&](TruthState& state) { state.error = error.what(); });

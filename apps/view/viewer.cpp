@@ -91,9 +91,12 @@ int Viewer::run() {
         const bool lively = camera.moving() || settle_ > 0;
         const bool waiting = !worker.status().first.empty() || !loading.loading().empty() ||
                              truth.state().running || explaining_.valid();
-        const bool preliminary = requested_ && requested_->moving;  // the full picture is still to be asked for
-        const std::vector<std::string> dropped =
-            window.wait(lively ? 0.004 : preliminary ? 0.03 : waiting ? 0.1 : 0.25);
+        const bool preliminary =
+            requested_ && requested_->moving;  // the full picture is still to be asked for
+        const std::vector<std::string> dropped = window.wait(lively        ? 0.004
+                                                             : preliminary ? 0.03
+                                                             : waiting     ? 0.1
+                                                                           : 0.25);
         if (window.takeInput() || window.hasKeys()) settle_ = 4;
         for (const std::string& file : dropped)
             open(file);
@@ -160,6 +163,12 @@ void Viewer::collect() {
         settle_ = std::max(settle_, 2);
     }
     updateTruth();
+}
+
+void Viewer::forgetThumbnails() {
+    worker.forgetThumbnails();
+    std::erase_if(thumbnailErrors,
+                  [](const auto& entry) { return entry.second.empty(); });  // to be asked again
 }
 
 void Viewer::takeFrame(Frame taken) {
@@ -236,6 +245,7 @@ void Viewer::takeLoaded(LoadResult result) {
     if (!another) return;
     camera.forget();
     ui.startPage = false;
+    forgetThumbnails();
     ui.material = ui.light = -1;
     ui.picked.reset();
     ui.shown = {};
@@ -386,7 +396,7 @@ void Viewer::updateTruth() {
     truthRounds_ = state.rounds;
     events.add("truth", {{"rounds", state.rounds}, {"relative_error", state.relativeError}});
     if (ui.comparison.with == Comparison::With::truth)
-        attempt([&] { otherPicture.set(displayOf(*state.image, {}, *document.settings()).bitmap, false); });
+        attempt([&] { otherPicture.set(displayOf(*state.image, {}, *document.settings()).bitmap, true); });
     else
         updateErrorMap();
     settle_ = std::max(settle_, 2);

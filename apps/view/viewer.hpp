@@ -111,6 +111,7 @@ struct Viewer {
 
     void startTruth();
     void explainPixel(double x, double y);
+    void forgetThumbnails();                      ///< those in work, which would keep other pictures waiting
     void pickAt(double x, double y, bool pivot);  ///< pixels of the picture
     void compareWith(Comparison comparison);
 
@@ -137,7 +138,6 @@ struct Viewer {
     Legend otherLegend;
     ErrorSummary errorSummary;
     PassHistory history;
-    std::map<std::string, Bitmap> thumbnails;
     std::map<std::string, WindowTexture> thumbnailTextures;
     std::map<std::string, std::string> thumbnailErrors;
     std::string explanation;

@@ -64,8 +64,8 @@ struct Renderer::State {
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights, bodies),
-              resources{*scene, plan,        programs, targets, surfaces,   lights,
-                        bodies, environment, inputs,   rays,    shadowMaps, {}, 1} {
+              resources{*scene,      plan,   programs, targets,    surfaces, lights, bodies,
+                        environment, inputs, rays,     shadowMaps, {},       1} {
             makePasses();
         }
 
@@ -109,8 +109,8 @@ struct Renderer::State {
         if (current->scene.get() == &scene) return true;
         return std::equal(current->scene->images.begin(), current->scene->images.end(), scene.images.begin(),
                           scene.images.end(), [](const Bitmap& a, const Bitmap& b) {
-                              return a.width == b.width && a.height == b.height &&
-                                     a.channels == b.channels && a.type == b.type && a.data == b.data;
+                              return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+                                     a.type == b.type && a.data == b.data;
                           });
     }
 
@@ -235,8 +235,8 @@ Picture Renderer::render(const Camera& camera, const RenderRun& how) {
     current.resources.remarks.clear();
     if (current.accumulate) state_->clearAccumulated();
     for (int sample = 0; sample < samples; ++sample) {
-        const View view = state_->adapted(
-            makeView(camera, options.width, options.height, jitter(sample, samples)));
+        const View view =
+            state_->adapted(makeView(camera, options.width, options.height, jitter(sample, samples)));
         current.lights.update(view);
         current.bodies.update(view, sample);
         current.environment.update(sample);

@@ -58,8 +58,8 @@ public:
     explicit Renderer(gl::Context& context);
     ~Renderer();
 
-    /// Uploads what the plan needs of the scene; textures that are there already stay. The scene is kept until
-    /// the next call; it may be changed between pictures if it is set again before the next one.
+    /// Uploads what the plan needs of the scene; textures that are there already stay. The scene is kept
+    /// until the next call; it may be changed between pictures if it is set again before the next one.
     void setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options);
     /// The plan of the scene and options set last.
     const FramePlan& plan() const;

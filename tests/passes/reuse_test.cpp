@@ -24,7 +24,8 @@ std::shared_ptr<Scene> busyScene() {
     const int glass = addMaterial(*scene, "lambert");
     scene->materials[1].alphaMode = AlphaMode::blend;
     scene->materials[1].alpha = 0.4F;
-    addInstance(*scene, addQuad(*scene, glass, 0.7F), glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 1.3)));
+    addInstance(*scene, addQuad(*scene, glass, 0.7F),
+                glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 1.3)));
     for (Primitive& primitive : scene->primitives)
         if (primitive.uvs[0].empty()) {
             primitive.uvs[0].reserve(primitive.positions.size());

@@ -33,7 +33,8 @@ std::vector<Entry> entriesOf(const fs::path& folder) {
         const bool isFolder = item->is_directory(unknown);
         const std::string name = item->path().filename().string();
         if (name.starts_with(".")) continue;
-        if (isFolder || known.contains(app::lowerExtension(item->path()))) entries.push_back({name, isFolder});
+        if (isFolder || known.contains(app::lowerExtension(item->path())))
+            entries.push_back({name, isFolder});
     }
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
         return std::pair(!a.isFolder, a.name) < std::pair(!b.isFolder, b.name);
@@ -66,8 +67,8 @@ void drawOpenDialog(Viewer& viewer) {
     std::string& path = viewer.ui.openPath;
     ImGui::SetNextItemWidth(-1.0F);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint("##path", "file or folder", &path,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputTextWithHint("##path", "file or folder", &path, ImGuiInputTextFlags_EnterReturnsTrue);
     viewer.mark("open path");
     const fs::path folder = folderOf(path);
     if (folder != listed) {
@@ -89,7 +90,8 @@ void drawOpenDialog(Viewer& viewer) {
     if (ImGui::Button("Open") && !path.empty()) chosen = path;
     viewer.mark("open button");
     ImGui::SameLine();
-    const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    const bool cancelled =
+        ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     viewer.mark("open cancel");
     if (!chosen.empty() || cancelled) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
@@ -100,11 +102,13 @@ void drawOpenDialog(Viewer& viewer) {
 
 void drawSaveDialog(Viewer& viewer) {
     if (!beginDialog("Save picture", viewer.ui.saveDialog)) return;
-    ImGui::TextWrapped(".png and .jpg as it is shown; .exr and .hdr linear, .exr with all quantities of the setting "
-                       "aov; .json the state");
+    ImGui::TextWrapped(
+        ".png and .jpg as it is shown; .exr and .hdr linear, .exr with all quantities of the setting "
+        "aov; .json the state");
     ImGui::SetNextItemWidth(-1.0F);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputText("##path", &viewer.ui.savePath, ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputText("##path", &viewer.ui.savePath, ImGuiInputTextFlags_EnterReturnsTrue);
     const bool save = ImGui::Button("Save") || entered;
     ImGui::SameLine();
     if (ImGui::Button("Cancel") || save || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))

@@ -74,8 +74,7 @@ bool drawLightHandles(Viewer& viewer) {
     if (static_cast<size_t>(index) >= lights.size()) return false;
     Light light = lights[static_cast<size_t>(index)];
     const Projection projection(viewer);
-    const glm::dvec3 place =
-        hasPlace(light) ? light.position : viewer.document.scene()->bounds().center();
+    const glm::dvec3 place = hasPlace(light) ? light.position : viewer.document.scene()->bounds().center();
     ImVec2 origin;
     if (!projection.at(place, origin)) return false;
     const double reach = 70.0 * double{viewer.window.scale()} * projection.metresPerPoint(place);
@@ -111,7 +110,8 @@ bool drawLightHandles(Viewer& viewer) {
         const bool lit = static_cast<int>(i) == held || (held < 0 && static_cast<int>(i) == hovered);
         list.AddCircleFilled(points[i], (lit ? 8.0F : 6.0F) * viewer.window.scale(), kColors[i]);
         list.AddCircle(points[i], (lit ? 8.0F : 6.0F) * viewer.window.scale(), IM_COL32_BLACK);
-        static constexpr const char* kNames[] = {"handle x", "handle y", "handle z", "handle center", "handle aim"};
+        static constexpr const char* kNames[] = {"handle x", "handle y", "handle z", "handle center",
+                                                 "handle aim"};
         viewer.events.place(kNames[i], points[i].x, points[i].y, 0.0F, 0.0F);
     }
     if (held < 0 || !ImGui::IsItemActive()) return hovered >= 0;
@@ -120,7 +120,8 @@ bool drawLightHandles(Viewer& viewer) {
     const View& view = projection.view();
     const glm::dvec3 right = glm::normalize(view.rayDirectionDx), up = glm::normalize(view.rayDirectionDy);
     const double metres = projection.metresPerPoint(place);
-    const glm::dvec3 across = right * (double{io.MouseDelta.x} * metres) - up * (double{io.MouseDelta.y} * metres);
+    const glm::dvec3 across =
+        right * (double{io.MouseDelta.x} * metres) - up * (double{io.MouseDelta.y} * metres);
     if (held == kCenter) {
         light.position += across;
     } else if (held == kAim) {

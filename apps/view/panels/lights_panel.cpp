@@ -51,12 +51,13 @@ Light newLight(const Viewer& viewer, LightType type) {
 
 const char* intensityUnit(LightType type) {
     if (type == LightType::directional) return "irradiance [W/m\xC2\xB2]";
-    return type == LightType::rect || type == LightType::disk ? "radiance [W/m\xC2\xB2/sr]" : "intensity [W/sr]";
+    return type == LightType::rect || type == LightType::disk ? "radiance [W/m\xC2\xB2/sr]"
+                                                              : "intensity [W/sr]";
 }
 
 bool dragNumber(const char* label, double& value, double low, double high, double speed) {
-    return ImGui::DragScalar(label, ImGuiDataType_Double, &value, static_cast<float>(speed), &low, &high, "%.4g",
-                             ImGuiSliderFlags_AlwaysClamp);
+    return ImGui::DragScalar(label, ImGuiDataType_Double, &value, static_cast<float>(speed), &low, &high,
+                             "%.4g", ImGuiSliderFlags_AlwaysClamp);
 }
 
 /// Colour and a number, of which the three channels are the product.
@@ -145,8 +146,8 @@ void drawLight(Viewer& viewer, size_t index) {
     viewer.mark("light intensity");
     if (light.type != LightType::directional) {
         double position[3] = {light.position.x, light.position.y, light.position.z};
-        if (ImGui::DragScalarN("position [m]", ImGuiDataType_Double, position, 3, static_cast<float>(0.005 * size),
-                               nullptr, nullptr, "%.4g")) {
+        if (ImGui::DragScalarN("position [m]", ImGuiDataType_Double, position, 3,
+                               static_cast<float>(0.005 * size), nullptr, nullptr, "%.4g")) {
             light.position = {position[0], position[1], position[2]};
             changed = true;
         }
@@ -182,12 +183,13 @@ void drawLightsPanel(Viewer& viewer) {
     if (drawn == nullptr) return ImGui::TextDisabled("no picture yet");
     const std::vector<Light>& lights = present(viewer);
     if (drawn->hasKeyLight && !viewer.document.edits().lights)
-        ImGui::TextWrapped("The scene has no light: a key light over the camera's shoulder and a little ambient "
-                           "light are Lobe's own.");
+        ImGui::TextWrapped(
+            "The scene has no light: a key light over the camera's shoulder and a little ambient "
+            "light are Lobe's own.");
     if (ImGui::BeginListBox("##lights", {-1.0F, 7.0F * ImGui::GetTextLineHeightWithSpacing()})) {
         for (size_t i = 0; i < lights.size(); ++i) {
-            const std::string label = std::to_string(i) + "  " + lights[i].name + " (" + nameOf(lights[i].type) +
-                                      ")##" + std::to_string(i);
+            const std::string label = std::to_string(i) + "  " + lights[i].name + " (" +
+                                      nameOf(lights[i].type) + ")##" + std::to_string(i);
             if (ImGui::Selectable(label.c_str(), viewer.ui.light == static_cast<int>(i)))
                 viewer.ui.light = static_cast<int>(i);
         }
@@ -195,8 +197,8 @@ void drawLightsPanel(Viewer& viewer) {
     }
     viewer.mark("lights");
     if (ImGui::BeginCombo("##add", "Add a light...")) {
-        for (const LightType type : {LightType::directional, LightType::point, LightType::spot, LightType::rect,
-                                     LightType::disk, LightType::sphere, LightType::tube}) {
+        for (const LightType type : {LightType::directional, LightType::point, LightType::spot,
+                                     LightType::rect, LightType::disk, LightType::sphere, LightType::tube}) {
             if (ImGui::Selectable(nameOf(type))) {
                 std::vector<Light> more = lights;
                 more.push_back(newLight(viewer, type));

@@ -32,8 +32,9 @@ void drawPixelPanel(Viewer& viewer) {
     viewer.mark("explain");
     ImGui::BeginChild("pixel", {0.0F, 0.0F}, false, ImGuiWindowFlags_HorizontalScrollbar);
     if (viewer.explanation.empty())
-        ImGui::TextWrapped("Surface, parameters, each light's share with its terms and visibility, the truth, and "
-                           "what the picture has, as lobe explain prints them.");
+        ImGui::TextWrapped(
+            "Surface, parameters, each light's share with its terms and visibility, the truth, and "
+            "what the picture has, as lobe explain prints them.");
     else
         ImGui::TextUnformatted(viewer.explanation.c_str());
     ImGui::EndChild();

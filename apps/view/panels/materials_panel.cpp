@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "panels.hpp"
-#include "plot/lobes.hpp"
 #include "plan/summary.hpp"
+#include "plot/lobes.hpp"
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 #include "style.hpp"
@@ -23,8 +23,9 @@ void put(Viewer& viewer, int index, Material material, const std::string& tag) {
 /// The edited one, which may not have been drawn yet, or the drawn one.
 const Material& present(const Viewer& viewer, int index) {
     const auto found = viewer.document.edits().materials.find(index);
-    return found != viewer.document.edits().materials.end() ? *found->second
-                                                            : viewer.drawn()->materials[static_cast<size_t>(index)];
+    return found != viewer.document.edits().materials.end()
+               ? *found->second
+               : viewer.drawn()->materials[static_cast<size_t>(index)];
 }
 
 std::string titleOf(const Material& material, int index) {
@@ -33,8 +34,9 @@ std::string titleOf(const Material& material, int index) {
 
 void drawParameterTooltip(const Parameter& parameter) {
     if (!ImGui::IsItemHovered()) return;
-    ImGui::SetTooltip("%s\n%g to %g%s%s%s", parameter.description.c_str(), parameter.minimum, parameter.maximum,
-                      parameter.unit == "1" ? "" : " ", parameter.unit == "1" ? "" : parameter.unit.c_str(),
+    ImGui::SetTooltip("%s\n%g to %g%s%s%s", parameter.description.c_str(), parameter.minimum,
+                      parameter.maximum, parameter.unit == "1" ? "" : " ",
+                      parameter.unit == "1" ? "" : parameter.unit.c_str(),
                       "\nright click: default; Ctrl+click: type a value");
 }
 
@@ -158,7 +160,8 @@ void drawPresets(Viewer& viewer, int index, const Brdf& brdf) {
 /// f_r cos(theta_i) in the plane of incidence, for light at three angles.
 void drawPolarPlot(Viewer& viewer, const Brdf& brdf, const Material& material) {
     if (!brdf.fCos) return ImGui::TextDisabled("no plot: the model is GLSL alone, without a twin");
-    if (!brdf.traits.scattersLight) return ImGui::TextDisabled("no plot: the model mirrors and scatters nothing");
+    if (!brdf.traits.scattersLight)
+        return ImGui::TextDisabled("no plot: the model mirrors and scatters nothing");
     static std::string plotted;
     static ParameterValues values;
     static plot::Lobes lobes;
@@ -213,7 +216,8 @@ void drawPolarPlot(Viewer& viewer, const Brdf& brdf, const Material& material) {
     viewer.mark("polar plot");
     for (size_t i = 0; i < lobes.lobes.size(); ++i) {
         if (i > 0) ImGui::SameLine();
-        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(seriesColor(i)), "%g\xC2\xB0", lobes.lobes[i].incidence);
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(seriesColor(i)), "%g\xC2\xB0",
+                           lobes.lobes[i].incidence);
     }
     ImGui::SameLine();
     ImGui::Text("of incidence; outermost %.3g /sr", peak);
@@ -228,8 +232,9 @@ void drawModelChoice(Viewer& viewer, int index) {
     }
     for (const std::string& name : brdfNames())
         if (ImGui::Selectable(name.c_str(), name == material.brdf))
-            viewer.attempt(
-                [&] { put(viewer, index, withModel(*viewer.document.scene(), material, requireBrdf(name)), ""); });
+            viewer.attempt([&] {
+                put(viewer, index, withModel(*viewer.document.scene(), material, requireBrdf(name)), "");
+            });
     ImGui::EndCombo();
 }
 
@@ -247,7 +252,8 @@ void drawGeneral(Viewer& viewer, int index) {
         changed |= ImGui::SliderFloat("alpha", &material.alpha, 0.0F, 1.0F, "%.3g");
     changed |= ImGui::Checkbox("both sides", &material.doubleSided);
     if (!changed) return;
-    material.emission = {std::max(0.0F, emission[0]), std::max(0.0F, emission[1]), std::max(0.0F, emission[2])};
+    material.emission = {std::max(0.0F, emission[0]), std::max(0.0F, emission[1]),
+                         std::max(0.0F, emission[2])};
     put(viewer, index, material, "surface");
 }
 

@@ -41,9 +41,9 @@ void drawCheckers(ImDrawList& list, const Rect& rect) {
         for (int x = y % 2; static_cast<float>(x) * kSquare < rect.width(); x += 2) {
             const ImVec2 low(rect.low.x + static_cast<float>(x) * kSquare,
                              rect.low.y + static_cast<float>(y) * kSquare);
-            list.AddRectFilled(low,
-                               {std::min(low.x + kSquare, rect.high.x), std::min(low.y + kSquare, rect.high.y)},
-                               IM_COL32(130, 130, 130, 255));
+            list.AddRectFilled(
+                low, {std::min(low.x + kSquare, rect.high.x), std::min(low.y + kSquare, rect.high.y)},
+                IM_COL32(130, 130, 130, 255));
         }
 }
 
@@ -133,8 +133,8 @@ void dragCamera(Viewer& viewer, const Rect& rect) {
         if (drawn == nullptr || !drawn->hasEnvironment) return;
         viewer.attempt([&] {
             const double turn = viewer.document.settings()->get("env_rotation").get<double>();
-            viewer.document.change("env_rotation", std::remainder(turn + dx / height * kDegreesOfHeight, 360.0),
-                                   "env_rotation");
+            viewer.document.change(
+                "env_rotation", std::remainder(turn + dx / height * kDegreesOfHeight, 360.0), "env_rotation");
         });
         viewer.lastMoved = viewer.seconds();
         return;
@@ -216,9 +216,9 @@ void drawPictureArea(Viewer& viewer) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
     ImGui::Begin("picture", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNavInputs |
-                     ImGuiWindowFlags_NoBackground);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoBackground);
     ImGui::PopStyleVar(2);
     if (viewer.ui.startPage) {
         drawStartPage(viewer, viewer.pictureX, viewer.pictureY, viewer.pictureWidth, viewer.pictureHeight);
@@ -246,8 +246,8 @@ void drawPictureArea(Viewer& viewer) {
         useMouse(viewer, rect, wipeX);
     }
     if (viewer.ui.shown.aov != Aov::radiance)
-        drawTag(list, {viewer.pictureX + 14.0F, viewer.pictureY + 8.0F}, nameOf(viewer.ui.shown) + "  (B: picture)",
-                false);
+        drawTag(list, {viewer.pictureX + 14.0F, viewer.pictureY + 8.0F},
+                nameOf(viewer.ui.shown) + "  (B: picture)", false);
     // Work that takes longer than a moment says so where one looks.
     const auto [status, since] = viewer.worker.status();
     const std::string loading = viewer.loading.loading();

@@ -90,8 +90,8 @@ std::optional<json> editNumber(const json& value, const Setting& setting) {
     double number = value.is_number() ? value.get<double>() : 0.0;
     const double speed = setting.unit == "degrees" ? 0.5 : setting.unit == "stops" ? 0.02 : 0.01;
     const std::string format = "%.4g" + (setting.unit.empty() ? std::string() : " " + setting.unit);
-    if (ImGui::DragScalar("##value", ImGuiDataType_Double, &number, static_cast<float>(speed), &setting.minimum,
-                          &setting.maximum, format.c_str()))
+    if (ImGui::DragScalar("##value", ImGuiDataType_Double, &number, static_cast<float>(speed),
+                          &setting.minimum, &setting.maximum, format.c_str()))
         return json(std::clamp(number, setting.minimum, setting.maximum));
     return {};
 }

@@ -22,6 +22,7 @@ void requestThumbnail(Viewer& viewer, const std::string& file) {
     viewer.thumbnailErrors[file] = "";  // in work
     app::Settings settings;
     settings.set("resolution", {kThumbWidth, kThumbHeight}, "gallery");
+    settings.set("quality", "draft", "gallery");
     ThumbnailRequest request;
     request.key = file;
     request.frame.file = file;
@@ -50,8 +51,8 @@ bool drawCard(Viewer& viewer, const std::string& key, const std::string& label) 
         list.AddText({at.x + 8.0F, at.y + 8.0F}, IM_COL32(170, 170, 170, 255), text.c_str());
     }
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemFocused();
-    list.AddRect(at, {at.x + size.x, at.y + size.y}, lit ? IM_COL32(255, 210, 110, 255) : IM_COL32(70, 70, 75, 255),
-                 0.0F, 0, lit ? 2.0F : 1.0F);
+    list.AddRect(at, {at.x + size.x, at.y + size.y},
+                 lit ? IM_COL32(255, 210, 110, 255) : IM_COL32(70, 70, 75, 255), 0.0F, 0, lit ? 2.0F : 1.0F);
     viewer.mark("card " + label);
     if (ImGui::IsItemHovered()) {
         const auto error = viewer.thumbnailErrors.find(key);

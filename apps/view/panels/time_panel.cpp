@@ -99,9 +99,9 @@ void drawChart(const std::vector<ReportPoint>& points) {
     const ReportPoint* nearest = nullptr;
     float best = 10.0F;
     for (const ReportPoint& point : points) {
-        const ImVec2 p(at.x + 10.0F + (size.x - 20.0F) * share(point.milliseconds, x0, x1),
-                       at.y + size.y - 10.0F -
-                           (size.y - 20.0F) * share(std::max(point.error, 1e-12), y0, y1));
+        const ImVec2 p(
+            at.x + 10.0F + (size.x - 20.0F) * share(point.milliseconds, x0, x1),
+            at.y + size.y - 10.0F - (size.y - 20.0F) * share(std::max(point.error, 1e-12), y0, y1));
         list.AddCircleFilled(p, 4.0F, seriesColor(1));
         const float away = std::hypot(ImGui::GetIO().MousePos.x - p.x, ImGui::GetIO().MousePos.y - p.y);
         if (away < best) {
@@ -112,16 +112,15 @@ void drawChart(const std::vector<ReportPoint>& points) {
     if (nearest != nullptr)
         ImGui::SetTooltip("%s\n%.3g ms, relmse %.3g", nearest->label.c_str(), nearest->milliseconds,
                           nearest->error);
-    ImGui::TextDisabled("error %.2g to %.2g (up) against %.3g to %.3g ms (right), both logarithmic", y0, y1, x0,
-                        x1);
+    ImGui::TextDisabled("error %.2g to %.2g (up) against %.3g to %.3g ms (right), both logarithmic", y0, y1,
+                        x0, x1);
 }
 
 void useChoice(Viewer& viewer, const measure::Goal& goal) {
     viewer.attempt([&] {
         const json& size = viewer.document.settings()->get("resolution");
-        const measure::Chosen chosen = measure::choose(
-            viewer.ui.report, viewer.document.scene()->contentHash, size[0].get<double>() * size[1].get<double>(),
-            goal);
+        const measure::Chosen chosen = measure::choose(viewer.ui.report, viewer.document.scene()->contentHash,
+                                                       size[0].get<double>() * size[1].get<double>(), goal);
         viewer.document.changeAll(app::knobsOf(chosen.quality), "report");
         std::array<char, 160> text{};
         std::snprintf(text.data(), text.size(), ": expect error %.3g in %.3g ms; ", chosen.error,
@@ -134,8 +133,9 @@ void useChoice(Viewer& viewer, const measure::Goal& goal) {
 void drawReport(Viewer& viewer) {
     if (!ImGui::CollapsingHeader("Error against time", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (viewer.ui.report.is_null())
-        return ImGui::TextWrapped("Open a report.json, which lobe report writes, to see the error of each quality "
-                                  "setting against its time, and to choose by them.");
+        return ImGui::TextWrapped(
+            "Open a report.json, which lobe report writes, to see the error of each quality "
+            "setting against its time, and to choose by them.");
     if (!viewer.document.scene()) return ImGui::TextDisabled("no scene is open");
     bool isOurs = false;
     const json* scene = entryOf(viewer.ui.report, viewer.document.scene()->contentHash, isOurs);
