@@ -75,12 +75,12 @@ void Planner::planLightImages() {
     const bool prefiltered =
         std::any_of(plan_.areaMethods.begin(), plan_.areaMethods.end(),
                     [](const auto& entry) { return entry.second.method != AreaMethod::mirrored; });
-    plan_.notes.push_back("images on lights: " + plural(static_cast<int>(scene_.lightImages.size()), "rect") +
-                          " (" + joined(scene_.lightImages) + "), in one texture" +
-                          (prefiltered
-                               ? "; surfaces show them blurred by what they reflect, from halves of them, "
-                                 "points on lights by what each point stands for"
-                               : ", looked up where mirrored rays meet them"));
+    plan_.notes.push_back(
+        "images on lights: " + plural(static_cast<int>(scene_.lightImages.size()), "rect") + " (" +
+        joined(scene_.lightImages) + "), in one texture" +
+        (prefiltered ? "; surfaces show them blurred by what they reflect, from means over its parts, "
+                       "points on lights by what each point stands for"
+                     : ", looked up where mirrored rays meet them"));
 }
 
 void Planner::planBodyLights() {
