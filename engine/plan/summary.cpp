@@ -109,12 +109,18 @@ void summariseTextures(const Scene& scene, bool ambient, SceneSummary& summary) 
 }
 
 void countLights(const Scene& scene, SceneSummary& summary) {
+    const Bounds bounds = scene.bounds();
     for (const Light& light : scene.lights) {
         if (light.type == LightType::point || light.type == LightType::spot)
             summary.reachWeight += reachWeight(light);
         if (light.castsShadow) {
             ++summary.shadowLights[light.type];
             if (light.type == LightType::spot && needsCube(light)) ++summary.wideShadowSpots;
+            // At so many radii of the scene it is 5 % of the width of a cube's face.
+            constexpr double kDistant = 20.0;
+            if (!isPunctual(light.type) && bounds.radius() > 0.0 &&
+                glm::length(light.position - bounds.center()) > kDistant * bounds.radius())
+                summary.distantShadowLights.insert(light.type);
         }
         switch (light.type) {
             case LightType::directional:

@@ -77,6 +77,8 @@ struct SceneSummary {
     std::map<LightType, int> bodyLights;        ///< rect, disk, sphere, tube: how many, where there are any
     std::map<std::string, AreaForm> areaForms;  ///< of each model, where there are such lights
     std::map<LightType, int> shadowLights;      ///< that cast shadows, of each type
+    /// Of these types, those with one so far away that of a cube of maps the scene would take few texels.
+    std::set<LightType> distantShadowLights;
     int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
     bool environmentPicture = false;                  ///< it is not the same from everywhere
