@@ -101,11 +101,15 @@ void Planner::planBodyShadows() {
             leaveOut("shadow", nameOf(type), reason);
             continue;
         }
-        const bool sun = type == LightType::disk && scene_.environmentSunHasBody;
-        if (sun && !whyNoRays().empty())
-            throw ContextError("shadows of the sun as a disk: " + whyNoRays() +
-                               "; expected sun_size 0, of which there are maps, or shadows none");
-        if (prefersMaps() && !mirrors && !sun) {
+        const bool distant = scene_.distantShadowLights.contains(type);
+        if (const std::string none = whyNoRays(); distant && !none.empty()) {
+            plan_.shadows[type] = PlannedShadow::none;
+            leaveOut("shadow", nameOf(type),
+                     "too far away for a cube of maps, and rays cannot be had: " + none +
+                         "; a directional light (sun_size 0) has a map of its own");
+            continue;
+        }
+        if (prefersMaps() && !mirrors && !distant) {
             plan_.shadows[type] = PlannedShadow::maps;
             plan_.notes.push_back(
                 std::string("shadows of ") + nameOf(type) + " lights: maps about their centres, " +
@@ -117,9 +121,10 @@ void Planner::planBodyShadows() {
         }
         requireRays();
         plan_.notes.push_back(std::string("shadows of ") + nameOf(type) + " lights: rays, " +
-                              (mirrors && prefersMaps() ? "as mirrors need them, "
-                               : sun && prefersMaps()   ? "as the sun is too far away for maps about its centre, "
-                                                        : "") +
+                              (!prefersMaps() ? ""
+                               : mirrors      ? "as mirrors need them, "
+                                              : "as a cube of maps about a light so far away would hold the "
+                                                "scene in few texels, ") +
                               (plan_.quality.shadows == Shadows::hard ? "one to the centre of each"
                                                                       : "one to each point on them"));
     }

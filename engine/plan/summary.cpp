@@ -109,12 +109,18 @@ void summariseTextures(const Scene& scene, bool surroundings, SceneSummary& summ
 }
 
 void countLights(const Scene& scene, SceneSummary& summary) {
+    const Bounds bounds = scene.bounds();
     for (const Light& light : scene.lights) {
         if (light.type == LightType::point || light.type == LightType::spot)
             summary.reachWeight += reachWeight(light);
         if (light.castsShadow) {
             ++summary.shadowLights[light.type];
             if (light.type == LightType::spot && needsCube(light)) ++summary.wideShadowSpots;
+            // At so many radii of the scene it is 5 % of the width of a cube's face.
+            constexpr double kDistant = 20.0;
+            if (!isPunctual(light.type) && bounds.radius() > 0.0 &&
+                glm::length(light.position - bounds.center()) > kDistant * bounds.radius())
+                summary.distantShadowLights.insert(light.type);
         }
         switch (light.type) {
             case LightType::directional:
@@ -146,8 +152,6 @@ void countLights(const Scene& scene, SceneSummary& summary) {
         summary.environmentOtherSeen = environment.background && environment.backgroundImage >= 0;
         summary.environmentCastsShadow = environment.castsShadow;
         summary.environmentNotes = environment.notes;
-        summary.environmentSunHasBody =
-            environment.sun >= 0 && scene.lights[static_cast<size_t>(environment.sun)].type == LightType::disk;
         if (environment.image >= 0) {
             const Bitmap& picture = scene.images[static_cast<size_t>(environment.image)];
             summary.environmentWidth = picture.width;

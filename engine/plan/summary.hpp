@@ -80,13 +80,14 @@ struct SceneSummary {
     std::vector<std::string> lightImages;       ///< "64 x 48 texels", of each rect that shows an image
     std::map<std::string, AreaForm> areaForms;  ///< of each model, where there are such lights
     std::map<LightType, int> shadowLights;      ///< that cast shadows, of each type
+    /// Of these types, those with one so far away that of a cube of maps the scene would take few texels.
+    std::set<LightType> distantShadowLights;
     int wideShadowSpots = 0;  ///< of these, whose shadow maps are cubes (plan/shadow_layout.hpp)
     bool environment = false, fog = false;
     bool environmentPicture = false;                  ///< it is not the same from everywhere
     bool environmentSeen = false;                     ///< where no surface is
     bool environmentOtherSeen = false;                ///< and then as another picture
     bool environmentCastsShadow = false;              ///< surfaces block it
-    bool environmentSunHasBody = false;               ///< a disk that is too far away for maps about its centre
     int environmentWidth = 0, environmentHeight = 0;  ///< of its picture, texels
     std::vector<std::string> environmentNotes;        ///< Environment::notes
     /// What bounds the light of a light that is left out: the largest f_r cos(theta) of any material in use,

@@ -151,5 +151,29 @@ TEST(PlanShadowMaps, LightsWithABodyHaveCubesWhereMapsAreAskedFor) {
     EXPECT_EQ(planned(scene, mapped(1024)).shadowOf(LightType::sphere), PlannedShadow::rays);
 }
 
+TEST(ShadowMapPlan, LightsTooFarForACubeGetRaysOrNone) {
+    Scene scene;
+    test::addInstance(scene, test::addQuad(scene, test::addMaterial(scene, "lambert"), 1.0f));
+    Light disk;
+    disk.type = LightType::disk;
+    disk.position = {0, 0, 10};
+    disk.radius = 0.5;
+    scene.lights.push_back(disk);
+    Quality quality;
+    quality.shadowMethod = ShadowMethod::maps;
+    EXPECT_EQ(planOf(scene, quality).shadowOf(LightType::disk), PlannedShadow::maps);
+    scene.lights[0].position = {0, 0, 1000};
+    const FramePlan far = planOf(scene, quality);
+    EXPECT_EQ(far.shadowOf(LightType::disk), PlannedShadow::rays);
+    EXPECT_THAT(far.notes,
+                testing::Contains(testing::HasSubstr("so far away would hold the scene in few texels")));
+    Capabilities few;
+    few.maxTextureBufferTexels = 1000;  // enough for the light
+    test::addInstance(scene, test::addSphere(scene, 0));
+    const FramePlan none = planFrame(summarise(scene), quality, few);
+    EXPECT_EQ(none.shadowOf(LightType::disk), PlannedShadow::none);
+    EXPECT_THAT(test::reasonFor(none, "disk"), testing::HasSubstr("sun_size 0"));
+}
+
 }  // namespace
 }  // namespace lobe::test
