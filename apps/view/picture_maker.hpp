@@ -29,7 +29,7 @@ private:
     struct Stopped {};
     std::optional<Frame> tryToMake(const FrameRequest& request, double scale, const std::atomic<bool>& stop);
     void compose(const FrameRequest& request);
-    void set(const RenderOptions& options);
+    void set(const RenderOptions& options, bool moving);
     std::unique_ptr<Renderer> freshRenderer();
 
     gl::Context& context_;
@@ -42,6 +42,8 @@ private:
     nlohmann::json changes_, keyLight_;
     std::vector<Material> materials_;  ///< before they were edited
     std::vector<Light> lights_;
+    std::optional<Environment> environment_;  ///< before it was turned
+    nlohmann::json turn_;                     ///< settings that turn it and make it brighter
     Edits edits_;
     bool changed_ = true;  ///< since the renderer was given the scene
 

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/rendering.hpp"
+#include "plan/knobs.hpp"
 
 namespace lobe {
 namespace {
@@ -79,6 +80,63 @@ TEST(Reuse, EditedScenesKeepTheirTexturesAndAreDrawnAsFreshOnes) {
     renderer.setScene(repainted, optionsOf(96, 64, 4));
     EXPECT_EQ(renderer.render(frontCamera()).image.values,
               render(*repainted, frontCamera(), optionsOf(96, 64, 4)).values);
+}
+
+TEST(Reuse, TurnedEnvironmentsKeepTheirMapsAndAreDrawnAsFreshOnes) {
+    for (const char* lighting : {"prefiltered", "sampled"})
+        for (const char* diffuse : {"map", "sh2"}) {
+            const auto scene = busyScene();
+            Bitmap sky{8, 4, 3, ComponentType::f32, {}};
+            for (int i = 0; i < 8 * 4 * 3; ++i) {
+                const float value = static_cast<float>((i * 37) % 11) * 0.1F;
+                const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+                sky.data.insert(sky.data.end(), bytes, bytes + sizeof value);
+            }
+            scene->images.push_back(sky);
+            scene->environment = Environment{};
+            scene->environment->image = 1;
+            RenderOptions options = optionsOf(64, 48, 1);
+            setKnob(options.quality, "env_lighting", lighting);
+            setKnob(options.quality, "env_diffuse", diffuse);
+            Renderer renderer(eglContext());
+            renderer.setScene(scene, options);
+            const Image before = renderer.render(frontCamera()).image;
+            scene->environment->worldFromMap =
+                glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(0.0, 1.0, 0.0)));
+            scene->environment->intensity = 1.7;
+            renderer.setScene(scene, options);
+            const Image turned = renderer.render(frontCamera()).image;
+            EXPECT_NE(before.values, turned.values);
+            EXPECT_EQ(turned.values, render(*scene, frontCamera(), options).values)
+                << lighting << " " << diffuse;
+        }
+}
+
+TEST(Reuse, BorrowedMapsAreCloseAndGiveWayToTheirOwn) {
+    const auto scene = busyScene();
+    scene->materials[0].brdf = "metallic_roughness";
+    scene->materials[0].values = requireBrdf("metallic_roughness").defaults();
+    scene->materials[0].textures.assign(requireBrdf("metallic_roughness").parameters.size(), {});
+    scene->materials[0].textureChannels.assign(requireBrdf("metallic_roughness").parameters.size(), 0);
+    setParameter(scene->materials[0], "roughness", glm::dvec3(0.5));
+    scene->environment = Environment{};
+    const RenderOptions options = optionsOf(64, 48, 1);
+    Renderer renderer(eglContext());
+    renderer.setScene(scene, options);
+    renderer.render(frontCamera());
+    EXPECT_FALSE(renderer.borrowed());
+    setParameter(scene->materials[0], "roughness", glm::dvec3(0.55));
+    renderer.setScene(scene, options, true);
+    const Image near = renderer.render(frontCamera()).image;
+    EXPECT_TRUE(renderer.borrowed());
+    renderer.setScene(scene, options);
+    EXPECT_FALSE(renderer.borrowed());
+    const Image own = renderer.render(frontCamera()).image;
+    EXPECT_EQ(own.values, render(*scene, frontCamera(), options).values);
+    double worst = 0.0;
+    for (size_t i = 0; i < own.values.size(); ++i)
+        worst = std::max(worst, double{std::abs(own.values[i] - near.values[i])});
+    EXPECT_LT(worst, 0.2);
 }
 
 TEST(Reuse, FewerSamplesAreThePictureOfThatPlan) {

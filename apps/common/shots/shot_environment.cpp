@@ -96,6 +96,12 @@ json environmentChanges(const Scene& scene, const Settings& settings) {
     return changes;
 }
 
+void placeEnvironment(Scene& scene, const Settings& settings) {
+    if (!scene.environment) return;
+    turnEnvironment(scene, glm::radians(settings.get("env_rotation").get<double>()));
+    scaleEnvironment(scene, settings.get("env_intensity").get<double>());
+}
+
 void applyEnvironment(Scene& scene, const Settings& settings) {
     const json changes = environmentChanges(scene, settings);
     if (changes.empty()) return;
@@ -123,8 +129,7 @@ void applyEnvironment(Scene& scene, const Settings& settings) {
         scene.environment->background = shown != "hide";
     applySky(scene, settings);
     applySun(scene, settings);
-    turnEnvironment(scene, glm::radians(settings.get("env_rotation").get<double>()));
-    scaleEnvironment(scene, settings.get("env_intensity").get<double>());
+    placeEnvironment(scene, settings);
     Environment& environment = *scene.environment;
     const json& seen = settings.get("env_background");
     if (seen.is_null()) return;
