@@ -49,9 +49,10 @@ void addOptions(CLI::App& app, ReportArguments& r) {
                    "how long to measure a scene, its truth apart; in less time less is measured [480], s")
         ->type_name("S")
         ->check(CLI::Range(1.0, 1e6));
-    app.add_option("--truth", r.truth,
-                   "reference: double precision, with shadows; unshadowed: the same of the scene without shadows; "
-                   "converged: this engine with 64 samples [reference; converged for models from GLSL files]")
+    app.add_option(
+           "--truth", r.truth,
+           "reference: double precision, with shadows; unshadowed: the same of the scene without shadows; "
+           "converged: this engine with 64 samples [reference; converged for models from GLSL files]")
         ->type_name("NAME")
         ->check(CLI::IsMember({"converged", "reference", "unshadowed"}));
     app.add_option("--truth-time", r.truthSeconds, "how long to compute a reference at most [120], s")
@@ -206,9 +207,8 @@ json measureReport(const Work& work, gl::Context& context) {
     const ReportArguments& arguments = work.arguments;
     const measure::TruthSource truth =
         arguments.truth == "converged" ? measure::convergedTruth(context)
-        : arguments.truth.empty()
-            ? measure::bestTruth(context, arguments.truthSeconds, work.interrupted)
-            : measure::referenceTruth(arguments.truthSeconds, work.interrupted);
+        : arguments.truth.empty()      ? measure::bestTruth(context, arguments.truthSeconds, work.interrupted)
+                                       : measure::referenceTruth(arguments.truthSeconds, work.interrupted);
     measure::ReportEvents events = eventsOf(work);
     events.picture = [&](const std::string& name, const Image& image) { pictures.add(name, image); };
     events.bitmap = [&](const std::string& name, const Bitmap& bitmap) { pictures.add(name, bitmap); };

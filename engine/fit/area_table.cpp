@@ -14,7 +14,8 @@ namespace {
 constexpr size_t kFitDraws = 512;      // of each search
 constexpr size_t kWeightDraws = 2048;  // of weights and albedos
 constexpr int kWidthNodes = 28;
-/// Of metals with exact Fresnel equations up to 0.051, which are fitted well; beyond, one shape does not hold all.
+/// Of metals with exact Fresnel equations up to 0.051, which are fitted well; beyond, one shape does not hold
+/// all.
 constexpr double kMostColorDistance = 0.055;
 
 /// What one fit stands for: a term on its own, or all terms with the material's colours.

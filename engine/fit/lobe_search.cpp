@@ -226,7 +226,8 @@ Curvature freedom(const Numbers& at, const Numbers& gradient, const FitOptions& 
     for (int o = 0; o < kAllNumbers; o += kLobeNumbers) {
         const double power = at[o + kPowerAt], weight = at[o + kWeightAt];
         const double byPower = gradient[o + kPowerAt], byWeight = gradient[o + kWeightAt];
-        if (options.cosines || (power <= kLogLowest && byPower > 0.0) || (power >= kLogHighest && byPower < 0.0))
+        if (options.cosines || (power <= kLogLowest && byPower > 0.0) ||
+            (power >= kLogHighest && byPower < 0.0))
             free(o + kPowerAt, o + kPowerAt) = 0.0;
         if ((weight <= kLeastLogWeight && byWeight > 0.0) || (weight >= kMostLogWeight && byWeight < 0.0))
             free(o + kWeightAt, o + kWeightAt) = 0.0;

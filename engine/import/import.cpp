@@ -274,7 +274,8 @@ private:
             }
         }
         addLights(table);
-        readSurroundings(document_, table, result_.scene);  // last, as faces of an environment are taken off again
+        readSurroundings(document_, table,
+                         result_.scene);  // last, as faces of an environment are taken off again
         result_.scene.textures = std::move(table.textures);
         for (const EncodedImage& image : table.images) {
             result_.scene.imageNames.push_back(image.name);

@@ -32,8 +32,9 @@ gl::Texture uploadMap(const EnvironmentMap& map) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (map.width() > most || map.height() + 2 > most)
         throw ContextError("the environment's picture has " + std::to_string(map.width()) + " x " +
-                           std::to_string(map.height()) + " texels; expected at most " + std::to_string(most) + " x " +
-                           std::to_string(most - 2) + ", what the driver's textures hold");
+                           std::to_string(map.height()) + " texels; expected at most " +
+                           std::to_string(most) + " x " + std::to_string(most - 2) +
+                           ", what the driver's textures hold");
     std::vector<float> texels;
     texels.reserve(4 * static_cast<size_t>(map.width()) * static_cast<size_t>(map.height() + 2));
     for (int y = -1; y <= map.height(); ++y)

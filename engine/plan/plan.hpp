@@ -111,7 +111,8 @@ struct FramePlan {
     PlannedShadow environmentShadow = PlannedShadow::none;
     /// Occlusion textures keep what is prefiltered of it from surfaces.
     bool occlusionTextures = false;
-    /// So does what the depth buffer shows: half planes about the view ray, looks along each side of one. 0: it does not.
+    /// So does what the depth buffer shows: half planes about the view ray, looks along each side of one. 0:
+    /// it does not.
     int occlusionSlices = 0, occlusionSteps = 0;
     bool environmentMap = false;   ///< its picture itself is looked up, not only what is made of it
     bool rays = false;             ///< the scene's hierarchy of boxes is made for the rays of some program

@@ -56,8 +56,9 @@ void Planner::planEnvironmentShadow() {
     }
     std::string reason = whyNoShadowOfEnvironment();
     if (reason.empty() && !sought)
-        reason = plan_.environmentMethods.empty() ? "no surface shows it"
-                                                  : "the map is integrated beforehand, as if nothing blocked it";
+        reason = plan_.environmentMethods.empty()
+                     ? "no surface shows it"
+                     : "the map is integrated beforehand, as if nothing blocked it";
     if (reason.empty() && prefersMaps()) reason = "shadow maps have no view of it" + mapsReason();
     if (!reason.empty()) return leaveOut("shadow", "environment", reason);
     requireRays();

@@ -45,7 +45,8 @@ void Planner::addFogVariants(PlannedPass& pass, const Defines& defines) const {
     pass.variants.push_back({"", -1, background});
 }
 
-/// What is in each contribution by now, of surfaces and of the environment behind them, is dimmed as the sum is.
+/// What is in each contribution by now, of surfaces and of the environment behind them, is dimmed as the sum
+/// is.
 void Planner::addFogDims(PlannedPass& pass) const {
     std::vector<Variant> dimmed;
     if (hasDeferredSurface_) dimmed.push_back(pass.variants.front());

@@ -1,5 +1,5 @@
-// What keeps the prefiltered environment from surfaces: occlusion textures, and what the depth buffer shows. Light that
-// is sampled has rays for that.
+// What keeps the prefiltered environment from surfaces: occlusion textures, and what the depth buffer shows.
+// Light that is sampled has rays for that.
 #include <algorithm>
 
 #include "plan/planner.hpp"
@@ -7,8 +7,8 @@
 namespace lobe {
 namespace {
 
-/// Half planes about the view ray, and looks along each side of one, for each sample of a pixel (docs/environment.md,
-/// "What is in the way").
+/// Half planes about the view ray, and looks along each side of one, for each sample of a pixel
+/// (docs/environment.md, "What is in the way").
 constexpr std::pair<int, int> kLow{2, 6}, kHigh{6, 12};
 
 }  // namespace
@@ -73,11 +73,11 @@ void Planner::planOcclusion() {
     const auto opaque = [this](const BrdfFacts& facts) { return isPrefiltered(facts.name); };
     const bool shown = deferred_ && std::any_of(scene_.brdfs.begin(), scene_.brdfs.end(), opaque);
     const AmbientOcclusion quality = plan_.quality.ambientOcclusion;
-    const std::string left = !reason.empty()                     ? reason
-                             : !deferred_                        ? "forward shading"
-                             : !shown                            ? "no opaque surface shows what is prefiltered"
-                             : quality == AmbientOcclusion::off  ? "ambient_occlusion is off"
-                                                                 : "";
+    const std::string left = !reason.empty() ? reason
+                             : !deferred_    ? "forward shading"
+                             : !shown        ? "no opaque surface shows what is prefiltered"
+                             : quality == AmbientOcclusion::off ? "ambient_occlusion is off"
+                                                                : "";
     if (!left.empty()) return leaveOut("pass", "ambient_occlusion", left);
     std::tie(plan_.occlusionSlices, plan_.occlusionSteps) = quality == AmbientOcclusion::low ? kLow : kHigh;
 }
@@ -87,8 +87,8 @@ void Planner::planOcclusionChannels() {
     const auto textured = [this](const SurfaceFeatures& f) {
         return !f.blended() && f.texture("occlusion") != nullptr && isPrefiltered(f.brdf);
     };
-    const bool needed = plan_.occlusionTextures &&
-                        std::any_of(plan_.surfaces.begin(), plan_.surfaces.end(), textured);
+    const bool needed =
+        plan_.occlusionTextures && std::any_of(plan_.surfaces.begin(), plan_.surfaces.end(), textured);
     if (needed && deferred_)
         addTarget("occlusion", plan_.quality.gbufferBits == 8 ? "R8" : "R16", "factor of occlusion textures",
                   "keeps the prefiltered environment from surfaces");

@@ -20,7 +20,9 @@ Quality qualityPreset(const std::string& name) {
                 .envSamples = 16,
                 .ambientOcclusion = AmbientOcclusion::off};
     if (name == "balanced") return {};
-    if (name == "high") return {.samples = 4, .gbufferBits = 32, .textureBits = 16, .ambientOcclusion = AmbientOcclusion::high};
+    if (name == "high")
+        return {
+            .samples = 4, .gbufferBits = 32, .textureBits = 16, .ambientOcclusion = AmbientOcclusion::high};
     if (name == "converged")
         return {.samples = 16,
                 .gbufferBits = 32,

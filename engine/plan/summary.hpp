@@ -73,7 +73,7 @@ struct SceneSummary {
     std::vector<SurfaceFeatures> surfaces;  ///< sorted, each once; with occlusion textures where there is
                                             ///< ambient light or an environment that surfaces block
     std::vector<SurfaceFeatures> surfacesWithoutOcclusion;  ///< where these differ, the same without
-    std::vector<int> materialsInUse;        ///< indices into Scene::materials, ascending
+    std::vector<int> materialsInUse;                        ///< indices into Scene::materials, ascending
     int directionalLights = 0, pointLights = 0, spotLights = 0;
     int rangedPointLights = 0, rangedSpotLights = 0;
     std::map<LightType, int> bodyLights;        ///< rect, disk, sphere, tube: how many, where there are any
@@ -124,8 +124,8 @@ SceneSummary summarise(const Scene& scene);
 /// their weight's share of the sum have the least volume to light in sum.
 double reachWeight(const Light& light);
 
-/// What a material asks of a surface shader, with the vertex data that `primitive` brings. `surroundings`: there
-/// is ambient light, or an environment, for occlusion textures to act on.
+/// What a material asks of a surface shader, with the vertex data that `primitive` brings. `surroundings`:
+/// there is ambient light, or an environment, for occlusion textures to act on.
 SurfaceFeatures surfaceFeatures(const Material& material, const Primitive& primitive, bool surroundings);
 
 /// The texture slot behind a name of SurfaceTexture::slot.

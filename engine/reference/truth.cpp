@@ -77,7 +77,8 @@ private:
     static constexpr double kFirstLook = 0.1;
     static constexpr long long kFirstRays = 1024;
 
-    /// A picture with pixels that nothing is known of is of no use: the first look is ended whatever the clock says.
+    /// A picture with pixels that nothing is known of is of no use: the first look is ended whatever the
+    /// clock says.
     bool over() const { return stop_ || (known_ && deadline_ && Clock::now() >= *deadline_); }
 
     void takeFloor() {

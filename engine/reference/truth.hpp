@@ -16,8 +16,8 @@ struct TruthRequest {
     double relativeError = 0.002;  ///< standard error wanted of each pixel, of its radiance and half the mean
     /// Stop when they are over, with what was reached by then, but not before each pixel has been looked at.
     std::optional<double> seconds;
-    long long mostRays = 1 << 22;   ///< a pixel, beyond which it is left as it is
-    unsigned threads = 0;           ///< 0: one a core
+    long long mostRays = 1 << 22;  ///< a pixel, beyond which it is left as it is
+    unsigned threads = 0;          ///< 0: one a core
 };
 
 struct TruthProgress {

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A picture's radiance, with 0 for texels that are negative or not finite, so that they spoil none beside them.
+/// A picture's radiance, with 0 for texels that are negative or not finite, so that they spoil none beside
+/// them.
 class Linear {
 public:
     explicit Linear(const Bitmap& bitmap) : width_(static_cast<size_t>(bitmap.width)) {

@@ -80,7 +80,8 @@ TEST(LightImageExtension, ComesBeforeTheFacesOfAnEnvironment) {
     gltf.doc["extensionsUsed"].push_back("EXT_lights_image_based");
     gltf.doc["scenes"][0]["extensions"]["EXT_lights_image_based"] = {{"light", 0}};
     gltf.doc["extensions"]["EXT_lights_image_based"]["lights"] = {
-        {{"specularImages", {{0, 1, 2, 3, 4, 5}}}, {"irradianceCoefficients", json(std::vector<std::vector<double>>(9, {0.1, 0.2, 0.3}))}}};
+        {{"specularImages", {{0, 1, 2, 3, 4, 5}}},
+         {"irradianceCoefficients", json(std::vector<std::vector<double>>(9, {0.1, 0.2, 0.3}))}}};
     for (int i = 0; i < 6; ++i)
         gltf.doc["images"].push_back({{"uri", "data:image/png;base64,eA=="}});
     const Scene scene = importGltf(folder.write("scene.gltf", gltf.text()), {}).scene;

@@ -78,7 +78,8 @@ TEST(EnvironmentPlan, OcclusionOnlyWhereSomethingIsPrefilteredAndBlocked) {
         {planOf(quad("metallic_roughness")), "no environment"},
         {planOf(scene, {.shadows = Shadows::none}), "shadows are off"},
         {planOf(open), "as if nothing blocked"},
-        {planOf(scene, {.envLighting = EnvironmentLighting::sampled}), "no surface shows what is prefiltered"},
+        {planOf(scene, {.envLighting = EnvironmentLighting::sampled}),
+         "no surface shows what is prefiltered"},
         {planOf(surrounded("mirror")), "no surface shows what is prefiltered"},
         {planOf(scene, {.shading = Shading::forward}), "forward shading"},
         {planOf(scene, {.ambientOcclusion = AmbientOcclusion::off}), "ambient_occlusion is off"}};

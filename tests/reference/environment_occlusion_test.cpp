@@ -63,8 +63,8 @@ struct Surface {
 
 class EnvironmentOcclusion : public testing::TestWithParam<Surface> {};
 
-/// Pictures of 16 jittered frames against rays through pixels' centres: edges are in both errors. The bounds are half as
-/// much again as was measured.
+/// Pictures of 16 jittered frames against rays through pixels' centres: edges are in both errors. The bounds
+/// are half as much again as was measured.
 TEST_P(EnvironmentOcclusion, IsNearerToTheReferenceThanWithout) {
     const auto& [model, roughness, metallic, low, high] = GetParam();
     const Scene scene = corner(model, roughness, metallic);
@@ -142,8 +142,8 @@ TEST(EnvironmentOcclusions, StaysFiniteAtEveryScaleAndProjection) {
         }
 }
 
-/// A plane in an environment of 1, under a texture that lets a fifth through, in full and in half strength: deferred and
-/// forward, and not where shadows are off.
+/// A plane in an environment of 1, under a texture that lets a fifth through, in full and in half strength:
+/// deferred and forward, and not where shadows are off.
 TEST(EnvironmentOcclusions, TexturesDimWhatIsPrefiltered) {
     Scene scene;
     const int material = test::addMaterial(scene, "lambert");

@@ -55,8 +55,8 @@ std::vector<glm::dvec3> truth(const Scene& scene, double error, bool shadows = f
 
 class EnvironmentPicture : public testing::TestWithParam<Surface> {};
 
-/// What `prefiltered` is off by, of the split sum with a dominant direction, has been measured for each surface
-/// (docs/environment.md): the bounds are half as much again. Sampling has none but its noise.
+/// What `prefiltered` is off by, of the split sum with a dominant direction, has been measured for each
+/// surface (docs/environment.md): the bounds are half as much again. Sampling has none but its noise.
 TEST_P(EnvironmentPicture, AgreesWithTheReference) {
     const Scene scene = ball(GetParam());
     const auto truths = truth(scene, 5e-3);
@@ -74,17 +74,14 @@ TEST_P(EnvironmentPicture, AgreesWithTheReference) {
     EXPECT_LT(std::abs(sampledBias), 5e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, EnvironmentPicture,
-                         testing::Values(Surface{"lambert", 1.0, 0.0, 0.003},
-                                         Surface{"metallic_roughness", 0.2, 1.0, 0.041},
-                                         Surface{"metallic_roughness", 0.5, 0.0, 0.0075},
-                                         Surface{"metallic_roughness", 1.0, 1.0, 0.012},
-                                         Surface{"cook_torrance", 0.5, 1.0, 0.053},
-                                         Surface{"ward", 0.4, 1.0, 0.036},
-                                         Surface{"phong", 0.5, 1.0, 0.023},
-                                         Surface{"ashikhmin_shirley", 0.4, 1.0, 0.039},
-                                         Surface{"oren_nayar", 1.0, 0.0, 0.023},
-                                         Surface{"he", 0.5, 1.0, 0.09}));
+INSTANTIATE_TEST_SUITE_P(
+    Models, EnvironmentPicture,
+    testing::Values(Surface{"lambert", 1.0, 0.0, 0.003}, Surface{"metallic_roughness", 0.2, 1.0, 0.041},
+                    Surface{"metallic_roughness", 0.5, 0.0, 0.0075},
+                    Surface{"metallic_roughness", 1.0, 1.0, 0.012}, Surface{"cook_torrance", 0.5, 1.0, 0.053},
+                    Surface{"ward", 0.4, 1.0, 0.036}, Surface{"phong", 0.5, 1.0, 0.023},
+                    Surface{"ashikhmin_shirley", 0.4, 1.0, 0.039}, Surface{"oren_nayar", 1.0, 0.0, 0.023},
+                    Surface{"he", 0.5, 1.0, 0.09}));
 
 TEST(EnvironmentPictures, MirrorAndBackgroundAreTheMapItself) {
     const Scene scene = ball({"mirror", 0.0, 1.0});
@@ -141,8 +138,8 @@ TEST(EnvironmentPictures, ForwardShadesAsDeferredDoes) {
     }
 }
 
-/// Behind fog and a pane, deferred and forward: contributions add up to the picture that is drawn without them, to a
-/// few roundings of sums in another order, and so does coverage.
+/// Behind fog and a pane, deferred and forward: contributions add up to the picture that is drawn without
+/// them, to a few roundings of sums in another order, and so does coverage.
 TEST(EnvironmentPictures, ContributionsAddUp) {
     Scene scene = ball({"metallic_roughness", 0.4, 0.5});
     scene.fog = Fog{};

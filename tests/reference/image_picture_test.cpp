@@ -127,10 +127,11 @@ TEST(ImagePictures, LobesShowThePictureAsWellAsTheyShowTheLight) {
     }
 }
 
-/// A black picture with one bright texel, in 16 jittered frames with nothing in the way: the share of its light that
-/// arrives is all of it, though few points of any one frame meet the texel.
+/// A black picture with one bright texel, in 16 jittered frames with nothing in the way: the share of its
+/// light that arrives is all of it, though few points of any one frame meet the texel.
 TEST(ImagePictures, SoftShadowsOfNothingTakeNothing) {
-    Scene made = litBy("lambert", 64, 64, [](int x, int y) { return glm::vec3(x == 40 && y == 23 ? 1e3F : 0.0F); });
+    Scene made =
+        litBy("lambert", 64, 64, [](int x, int y) { return glm::vec3(x == 40 && y == 23 ? 1e3F : 0.0F); });
     for (Instance& instance : made.instances)
         instance.castsShadow = false;
     test::addInstance(made, test::addQuad(made, 0, 1.0F),

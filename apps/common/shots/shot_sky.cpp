@@ -73,7 +73,8 @@ json skyChanges(const Scene& scene, const Settings& settings) {
         if (value.is_null()) continue;
         if (!sky)
             throw UsageError(std::string(key) + " without a sky; expected sky beside it, as --sky preetham");
-        const SkyModel chosen = model.is_null() ? scene.environment->source.sky->model : modelOf(model.get<std::string>());
+        const SkyModel chosen =
+            model.is_null() ? scene.environment->source.sky->model : modelOf(model.get<std::string>());
         if (!reads(chosen, key))
             throw UsageError(std::string(key) + ": " + value.dump() + "; sky " + nameOf(chosen) +
                              " has none: expected " + modelsWith(key));

@@ -23,8 +23,9 @@ bool mirrors(const Scene& scene) {
 
 /// Whether the environment will be a picture that may have a sun in it.
 bool hasPicture(const Scene& scene, const Settings& settings) {
-    return !settings.get("env").is_null() || (settings.get("sky").is_null() && scene.environment &&
-                                              scene.environment->image >= 0 && !scene.environment->source.sky);
+    return !settings.get("env").is_null() ||
+           (settings.get("sky").is_null() && scene.environment && scene.environment->image >= 0 &&
+            !scene.environment->source.sky);
 }
 
 /// Two digits are enough of what people read.
@@ -65,15 +66,14 @@ void applySun(Scene& scene, const Settings& settings) {
     const double diameter = !size.is_null()  ? glm::radians(size.get<double>())
                             : mirrors(scene) ? kSunDiameter
                                              : 0.0;
-    environment.notes.push_back("the sun is taken out of the picture as a " +
-                                std::string(diameter > 0.0 ? "disk" : "directional light") + ", " +
-                                (asked ? "as env_sun asks" : "since a spot of it outshines the rest") + ": " +
-                                rounded(100.0 * spot.share) + " % of all light from " +
-                                rounded(glm::degrees(2.0 * spot.radius)) +
-                                " degrees, nine tenths of it from " + rounded(glm::degrees(2.0 * spot.core)) +
-                                (std::isfinite(spot.contrast)
-                                     ? ", up to " + rounded(spot.contrast) + " times what is around it"
-                                     : std::string(", nothing around it")));
+    environment.notes.push_back(
+        "the sun is taken out of the picture as a " +
+        std::string(diameter > 0.0 ? "disk" : "directional light") + ", " +
+        (asked ? "as env_sun asks" : "since a spot of it outshines the rest") + ": " +
+        rounded(100.0 * spot.share) + " % of all light from " + rounded(glm::degrees(2.0 * spot.radius)) +
+        " degrees, nine tenths of it from " + rounded(glm::degrees(2.0 * spot.core)) +
+        (std::isfinite(spot.contrast) ? ", up to " + rounded(spot.contrast) + " times what is around it"
+                                      : std::string(", nothing around it")));
     addSun(scene, sunLight(environment.worldFromMap * spot.direction, spot.irradiance * environment.intensity,
                            diameter, scene.bounds()));
     if (environment.background && environment.backgroundImage < 0)
