@@ -227,6 +227,8 @@ const std::vector<Command>& commandTable() {
 void handleKeys(Viewer& viewer, double seconds) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || ImGui::IsAnyItemActive()) return;
+    // Keys are those of dialogs, menus and lists while one is open.
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
     const std::optional<Window::Key> pressed = viewer.window.key();
     for (const Command& command : commandTable()) {
         if (!pressed || pressed->key != command.key) continue;

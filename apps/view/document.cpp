@@ -1,6 +1,7 @@
 #include "document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "base/error.hpp"
@@ -103,8 +104,15 @@ void Document::changeAll(const json& object, const std::string& origin) {
             app::requireSetting(given.substr(given.starts_with("!") ? 1 : 0), origin);
         state.changes[setting.key] = app::parseSetting(setting, value, origin);
     }
-    for (const char* key : {"camera", "camera_position", "camera_azimuth", "camera_elevation"})
-        if (object.contains(key)) pose_.reset();
+    // One way to place the camera takes the place of another.
+    constexpr std::array kCameraKeys{"camera", "camera_position", "camera_focal_point", "camera_azimuth",
+                                     "camera_elevation"};
+    if (std::any_of(kCameraKeys.begin(), kCameraKeys.end(),
+                    [&](const char* key) { return object.contains(key); })) {
+        pose_.reset();
+        for (const char* key : kCameraKeys)
+            if (!object.contains(key)) state.changes[key] = nullptr;
+    }
     settings_.reset();
     become(std::move(state), "");
 }

@@ -1,14 +1,31 @@
 #include "edits.hpp"
 
+#include <algorithm>
+
 #include "plan/summary.hpp"
 #include "scene/brdf_tables.hpp"
 #include "shot_scene.hpp"
 
 namespace lobe::view {
 
+bool fitsModel(const Material& material) {
+    const Brdf* brdf = findBrdf(material.brdf);
+    return brdf == nullptr || (material.values.size() >= static_cast<size_t>(brdf->valueCount()) &&
+                               material.textures.size() == brdf->parameters.size());
+}
+
 void applyEdits(Scene& scene, const Edits& edits) {
+    const auto inScene = [&](const TextureSlot& slot) {
+        return !slot || static_cast<size_t>(slot.texture) < scene.textures.size();
+    };
+    const auto known = [&](const Material& m) {
+        return std::all_of(m.textures.begin(), m.textures.end(), inScene) && inScene(m.baseColorTexture) &&
+               inScene(m.metallicRoughnessTexture) && inScene(m.normalTexture) &&
+               inScene(m.occlusionTexture) && inScene(m.emissionTexture);
+    };
     for (const auto& [index, material] : edits.materials)
-        if (index >= 0 && static_cast<size_t>(index) < scene.materials.size())
+        if (index >= 0 && static_cast<size_t>(index) < scene.materials.size() && fitsModel(*material) &&
+            known(*material))
             scene.materials[static_cast<size_t>(index)] = *material;
     if (!edits.materials.empty()) placeTables(scene.materials);
     if (edits.lights) scene.lights = *edits.lights;

@@ -104,7 +104,10 @@ private:
 
 void writeMaterials(json& gltf, const Scene& scene, const Edits& edits) {
     for (const auto& [index, material] : edits.materials) {
-        const auto i = static_cast<size_t>(index);
+        if (material->fileIndex < 0)
+            throw UsageError(scene.file + ": material '" + material->name +
+                             "' is none of the file's, and cannot be written; expected edits of others");
+        const auto i = static_cast<size_t>(material->fileIndex);
         if (!gltf.contains("materials") || i >= gltf["materials"].size()) continue;
         json& target = gltf["materials"][i];
         const std::string where = scene.file + ": materials[" + std::to_string(i) + "]";

@@ -68,7 +68,8 @@ void openTable(Viewer& viewer, const std::string& file) {
 void openJson(Viewer& viewer, const fs::path& file) {
     const json content = app::readJsonFile(file);
     if (content.is_object() && content.contains("shots")) {
-        viewer.batch = app::shotsOfBatch(file, viewer.options.sources);
+        // Models of files that it names are registered, which pictures in the making refer to.
+        viewer.whileIdle([&] { viewer.batch = app::shotsOfBatch(file, viewer.options.sources); });
         viewer.batchIndex = 0;
         viewer.say(file.string() + ": " + std::to_string(viewer.batch.size()) +
                    " shots; the arrow keys step");
@@ -83,7 +84,7 @@ void openJson(Viewer& viewer, const fs::path& file) {
         return;
     }
     app::Settings settings;
-    app::configFrom(file).apply(viewer.document.file(), settings);
+    viewer.whileIdle([&] { app::configFrom(file).apply(viewer.document.file(), settings); });
     json values = json::object();
     const app::Settings plain;
     const json all = settings.toJson();

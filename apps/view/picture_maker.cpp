@@ -151,6 +151,8 @@ std::optional<Frame> PictureMaker::tryToMake(const FrameRequest& request, double
 }
 
 void PictureMaker::reload() {
+    // A model's file may have other parameters than when the scene was made.
+    if (scene_ && !std::all_of(scene_->materials.begin(), scene_->materials.end(), fitsModel)) scene_.reset();
     if (!scene_ || !drawn_) {
         renderer_ = freshRenderer();
         drawn_.reset();

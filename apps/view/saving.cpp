@@ -24,6 +24,10 @@ json changedSettings(const app::Settings& settings) {
     const json all = settings.toJson();
     for (const auto& [key, value] : all.items())
         if (key != "output" && (value != plain.get(key) || key == "resolution")) result[key] = value;
+    // A state may lie in another folder than this program was started in.
+    if (result.contains("brdf_file") && result["brdf_file"].is_array())
+        for (json& file : result["brdf_file"])
+            file = fs::absolute(file.get<std::string>()).string();
     return result;
 }
 
@@ -50,12 +54,16 @@ std::string valueText(const json& value) {
 
 }  // namespace
 
-fs::path Viewer::freeName(const std::string& suffix) const {
+fs::path Viewer::freeName(const std::string& suffix) {
     const std::string stem = document.scene() ? document.file().stem().string() : "lobe";
     std::error_code ignored;
     for (int i = 1;; ++i) {
         fs::path name = fs::path("out") / (stem + "_" + std::to_string(i) + suffix);
-        if (!fs::exists(name, ignored)) return name;
+        // An edited scene is written beside its state; a picture that is still drawn has no file yet.
+        fs::path scene = name;
+        scene.replace_extension(".gltf");
+        if (fs::exists(name, ignored) || (suffix == ".json" && fs::exists(scene, ignored))) continue;
+        if (namesGiven_.insert(name.string()).second) return name;
     }
 }
 
@@ -114,12 +122,14 @@ void Viewer::useState(const std::string& text, const std::string& origin) {
 
 void saveState(Viewer& viewer, const fs::path& file) {
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
+    fs::path edited = file;
+    edited.replace_extension(".gltf");
+    std::error_code ignored;
+    if (!viewer.document.edits().empty() && fs::exists(edited, ignored))
+        throw UsageError(edited.string() + ": the edited scene would be written here, and there is a file; expected another name");
     writeAtomically(file, viewer.stateText());
     viewer.say("wrote " + file.string() + ": lobe render SCENE --settings " + file.string());
-    if (!viewer.document.edits().empty()) {
-        fs::path scene = file;
-        exportEdited(viewer, scene.replace_extension(".gltf"));
-    }
+    if (!viewer.document.edits().empty()) exportEdited(viewer, edited);
 }
 
 void exportEdited(Viewer& viewer, const fs::path& file) {

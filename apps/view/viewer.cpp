@@ -112,7 +112,7 @@ int Viewer::run() {
         const double now = seconds();
         if (settle_ == 0 && !waiting && !preliminary && !camera.moving() && !wantsSave) continue;
         settle_ = std::max(0, settle_ - 1);
-        const double passed = now - lastFrame_;
+        const double passed = std::min(now - lastFrame_, 0.1);  // nothing moves while all is at rest
         lastFrame_ = now;
 
         window.beginFrame();

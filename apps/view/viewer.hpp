@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -112,7 +113,7 @@ struct Viewer {
     void useState(const std::string& text, const std::string& origin);
     void savePicture(const std::filesystem::path& file);
     void saveWindow();
-    std::filesystem::path freeName(const std::string& suffix) const;
+    std::filesystem::path freeName(const std::string& suffix);
 
     void startTruth();
     void explainPixel(double x, double y);
@@ -157,6 +158,7 @@ struct Viewer {
     bool withModel(const std::string& model) const;
 
 private:
+    std::set<std::string> namesGiven_;  ///< of pictures and states, also those that are still to be written
     void collect();
     void takeFrame(Frame taken);
     void takeOther(Frame taken);

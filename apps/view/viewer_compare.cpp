@@ -80,7 +80,7 @@ void Viewer::updateTruth() {
         say("no truth: " + state.error, true);
         truthRounds_ = -1;
     }
-    if (state.rounds <= truthRounds_) return;
+    if (!state.image || state.rounds <= truthRounds_) return;
     truthRounds_ = state.rounds;
     events.add("truth", {{"rounds", state.rounds}, {"relative_error", state.relativeError}});
     if (ui.comparison.with == Comparison::With::truth)

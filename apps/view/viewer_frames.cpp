@@ -123,6 +123,10 @@ void Viewer::takeLoaded(LoadResult result) {
         loadedKey_ = loadKey();
     });
     if (!another) return;
+    frame.reset();  // facts of another scene
+    full.reset();
+    if (document.scene()->instances.empty())
+        say(result.request.file.string() + ": has nothing to draw", true);
     camera.forget();
     ui.startPage = false;
     forgetThumbnails();
@@ -164,6 +168,16 @@ void Viewer::watchFiles() {
     if (!shaders.changed()) return;
     say("shader files changed");
     attempt([&] { whileIdle([] { app::rereadModelFiles(); }); });
+    // What was drawn may have other parameters than its models have now.
+    const auto old = [](const std::optional<Frame>& drawnBefore) {
+        return drawnBefore && drawnBefore->drawn &&
+               !std::all_of(drawnBefore->drawn->materials.begin(), drawnBefore->drawn->materials.end(), fitsModel);
+    };
+    if (old(frame) || old(full)) {
+        frame.reset();
+        full.reset();
+        loadedKey_ = nullptr;  // materials of the file are read again
+    }
     worker.reload();
 }
 

@@ -192,6 +192,7 @@ private:
         auto& materials = result_.scene.materials;
         materials.push_back(gltfMaterial < 0 ? defaultMaterial()
                                              : materials_[static_cast<size_t>(gltfMaterial)]);
+        materials.back().fileIndex = gltfMaterial;
         const int index = static_cast<int>(materials.size()) - 1;
         materialIndex_.emplace(gltfMaterial, index);
         return index;

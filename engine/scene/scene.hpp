@@ -73,6 +73,7 @@ struct Material {
     float occlusionStrength = 1.0f;
     glm::vec3 emission{0.0f};  ///< factor times emissive strength: radiance, W/(m^2 sr)
     TextureSlot emissionTexture;
+    int fileIndex = -1;  ///< among the materials of the file; -1: not one of them
 };
 
 /// Whether the material's model lets light through from behind, and the material any of it: such surfaces are

@@ -162,7 +162,7 @@ void serialize(Archive& archive, Material& material) {
     archive(material.alpha, material.alphaMode, material.alphaCutoff, material.doubleSided);
     archive(material.normalTexture, material.normalScale, material.occlusionTexture,
             material.occlusionStrength);
-    archive(material.emission, material.emissionTexture);
+    archive(material.emission, material.emissionTexture, material.fileIndex);
 }
 
 template<typename Archive>

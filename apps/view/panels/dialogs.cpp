@@ -77,7 +77,7 @@ void drawOpenDialog(Viewer& viewer) {
     }
     std::string chosen;
     ImGui::BeginChild("files", {0.0F, -1.6F * ImGui::GetFrameHeight()}, true);
-    if (ImGui::Selectable("..")) path = fs::absolute(folder).parent_path().string() + "/";
+    if (ImGui::Selectable("..")) path = (fs::absolute(folder) / "..").lexically_normal().string();
     for (const Entry& entry : entries) {
         const std::string label = entry.isFolder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) continue;
