@@ -505,5 +505,18 @@ TEST(Materials, UnsupportedExtensionsAreNamedOnce) {
     EXPECT_THAT(gltf.refusal(), HasSubstr("extensionsRequired[0]: KHR_materials_sheen; expected"));
 }
 
+/// Materials are numbered as they are used, and know which of the file's they are.
+TEST(Materials, KnowTheirPlaceInTheFile) {
+    Gltf gltf = triangle();
+    gltf.doc["materials"] = {{{"name", "first"}}, {{"name", "second"}}};
+    gltf.doc["meshes"][0]["primitives"][0]["material"] = 1;
+    const Scene scene = gltf.import().scene;
+    ASSERT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.materials[0].name, "second");
+    EXPECT_EQ(scene.materials[0].fileIndex, 1);
+    gltf.doc["meshes"][0]["primitives"][0].erase("material");
+    EXPECT_EQ(gltf.import().scene.materials.at(0).fileIndex, -1);
+}
+
 }  // namespace
 }  // namespace lobe::test
