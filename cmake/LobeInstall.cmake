@@ -5,10 +5,13 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lobe)
 get_property(rooms GLOBAL PROPERTY LOBE_ROOMS)
 
-install(TARGETS lobe lobe-check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS lobe lobe-check lobe-view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS lobe-image-worker lobe-scene-worker lobe-check-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lobe)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/shaders/glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe
         FILES_MATCHING PATTERN "*.glsl" PATTERN "*.vert" PATTERN "*.frag")
+# The gallery of lobe-view.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe
+        PATTERN "making" EXCLUDE PATTERN "*.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY ${LOBE_PAGE_BUILT} DESTINATION ${CMAKE_INSTALL_DATADIR}/lobe)
 
 set_target_properties(lobe_compile PROPERTIES EXPORT_NAME compile)

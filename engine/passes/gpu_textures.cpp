@@ -173,6 +173,12 @@ GLuint GpuTextures::samplerObject(const Sampler& sampler) {
     return samplers_.back().second.id();
 }
 
+void GpuTextures::adopt(GpuTextures&& other) {
+    images_ = std::move(other.images_);
+    samplers_ = std::move(other.samplers_);
+    white_ = std::move(other.white_);
+}
+
 void GpuTextures::bind(int unit, const TextureSlot& slot, bool srgb) {
     const Texture& texture = scene_.textures[static_cast<size_t>(slot.texture)];
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));

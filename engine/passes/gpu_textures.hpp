@@ -33,6 +33,9 @@ public:
     /// driver's largest texture is smaller.
     void bind(int unit, const TextureSlot& slot, bool srgb);
 
+    /// Takes the uploads of another, which was made with the same bits, of a scene with the same images.
+    void adopt(GpuTextures&& other);
+
 private:
     GLuint imageTexture(int image, bool srgb);
     GLuint samplerObject(const Sampler& sampler);

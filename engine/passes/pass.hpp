@@ -31,6 +31,7 @@ struct FrameResources {
     RayScene& rays;  ///< empty where the plan has none
     ShadowMaps& shadowMaps;
     std::set<std::string> remarks;  ///< what a picture lacks of what the plan says; for people
+    int samples = 1;                ///< that the present picture is the mean of
 };
 
 class Pass {

@@ -9,6 +9,7 @@ const gl::Program& ProgramCache::get(const std::string& vertex, const std::strin
         name += " " + key + (value == "1" ? "" : "=" + value);
     const std::string key = vertex + "\n" + name + "\n" + material;
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+    if (onCompile_) onCompile_(name);
     const std::map<std::string, std::string> generated = {{"generated/material.glsl", material}};
     gl::Program program(library_.source(vertex, defines, generated),
                         library_.source(fragment, defines, generated), name);

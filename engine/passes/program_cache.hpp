@@ -2,6 +2,7 @@
 /// program.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -18,9 +19,13 @@ public:
     const gl::Program& get(const std::string& vertex, const std::string& fragment, const gl::Defines& defines,
                            const std::string& material);
 
+    /// Called with a program's name before it is compiled, which may take a second.
+    void onCompile(std::function<void(const std::string&)> callback) { onCompile_ = std::move(callback); }
+
 private:
     gl::ShaderLibrary library_;
     std::map<std::string, gl::Program> programs_;
+    std::function<void(const std::string&)> onCompile_;
 };
 
 }  // namespace lobe

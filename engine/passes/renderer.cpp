@@ -64,8 +64,15 @@ struct Renderer::State {
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights, bodies),
-              resources{*scene, plan,        programs, targets, surfaces,   lights,
-                        bodies, environment, inputs,   rays,    shadowMaps, {}} {
+              resources{*scene,      plan,   programs, targets,    surfaces, lights, bodies,
+                        environment, inputs, rays,     shadowMaps, {},       1} {
+            makePasses();
+        }
+
+        void makePasses() {
+            frame.clear();
+            data.reset();
+            accumulate.reset();
             for (const PlannedPass& planned : plan.passes) {
                 if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);
@@ -95,6 +102,24 @@ struct Renderer::State {
         std::vector<std::unique_ptr<Pass>> frame;
         std::unique_ptr<Pass> accumulate, data;
     };
+
+    /// Whether what was uploaded of the images can be used for `scene` as well.
+    bool hasImagesOf(const Scene& scene, const Quality& quality) const {
+        if (!current || current->plan.quality.textureBits != quality.textureBits) return false;
+        if (current->scene.get() == &scene) return true;
+        return std::equal(current->scene->images.begin(), current->scene->images.end(), scene.images.begin(),
+                          scene.images.end(), [](const Bitmap& a, const Bitmap& b) {
+                              return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+                                     a.type == b.type && a.data == b.data;
+                          });
+    }
+
+    void requireSize(int width, int height) const {
+        const int most = capabilities.maxTextureSize;
+        if (width > most || height > most)
+            throw UsageError("resolution " + std::to_string(width) + "x" + std::to_string(height) +
+                             "; expected at most " + std::to_string(most) + " a side, the driver's limit");
+    }
 
     void clearPictures() const {
         const FramePlan& plan = current->plan;
@@ -146,25 +171,39 @@ Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(contex
 Renderer::~Renderer() = default;
 
 void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options) {
-    const int most = state_->capabilities.maxTextureSize;
-    if (options.width > most || options.height > most)
-        throw UsageError("resolution " + std::to_string(options.width) + "x" +
-                         std::to_string(options.height) + "; expected at most " + std::to_string(most) +
-                         " a side, the driver's limit");
+    state_->requireSize(options.width, options.height);
     if (options.quality.fresnel == FresnelEquations::schlick)
         scene = std::make_shared<const Scene>(withSchlick(*scene));
     FramePlan plan = planFrame(summarise(*scene), options.quality, state_->capabilities, options.aovs);
+    GpuTextures kept(*scene, options.quality.textureBits, state_->capabilities);
+    if (state_->hasImagesOf(*scene, options.quality))
+        kept.adopt(std::move(state_->current->surfaces.textures()));
     state_->current.reset();
     state_->current = std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan),
                                                           state_->capabilities, state_->programs);
+    state_->current->surfaces.textures().adopt(std::move(kept));
     gl::checkErrors("setting up the scene");
+}
+
+void Renderer::resize(int width, int height) {
+    state_->requireSize(width, height);
+    State::SceneState& current = *state_->current;
+    current.options.width = width;
+    current.options.height = height;
+    current.targets = Targets(current.plan, width, height);
+    current.makePasses();
+    gl::checkErrors("changing the size");
+}
+
+void Renderer::onCompile(std::function<void(const std::string&)> callback) {
+    state_->programs.onCompile(std::move(callback));
 }
 
 const FramePlan& Renderer::plan() const {
     return state_->current->plan;
 }
 
-Picture Renderer::render(const Camera& camera) {
+Picture Renderer::render(const Camera& camera, const RenderRun& how) {
     State::SceneState& current = *state_->current;
     const gl::DebugScope frameScope("rendering " + current.scene->name);
     const auto run = [](Pass& pass, const View& view) {
@@ -177,6 +216,9 @@ Picture Renderer::render(const Camera& camera) {
     const auto mark = [&](const std::string& name) {
         if (options.timePasses) timer.mark(name);
     };
+    const auto stopped = [&] { return how.stop != nullptr && how.stop->load(std::memory_order_relaxed); };
+    const int samples = how.samples > 0 ? how.samples : current.plan.samples;
+    current.resources.samples = samples;
     if (options.timePasses) timer.start();
 
     state_->setDepthRange();
@@ -192,9 +234,9 @@ Picture Renderer::render(const Camera& camera) {
     }
     current.resources.remarks.clear();
     if (current.accumulate) state_->clearAccumulated();
-    for (int sample = 0; sample < current.plan.samples; ++sample) {
-        const View view = state_->adapted(
-            makeView(camera, options.width, options.height, jitter(sample, current.plan.samples)));
+    for (int sample = 0; sample < samples; ++sample) {
+        const View view =
+            state_->adapted(makeView(camera, options.width, options.height, jitter(sample, samples)));
         current.lights.update(view);
         current.bodies.update(view, sample);
         current.environment.update(sample);
@@ -203,6 +245,7 @@ Picture Renderer::render(const Camera& camera) {
         for (const auto& pass : current.frame) {
             run(*pass, view);
             mark(pass->name());
+            if (stopped()) return {};
         }
         if (current.accumulate) {
             run(*current.accumulate, view);

@@ -1,6 +1,8 @@
 /// Runs a FramePlan on an OpenGL context: scene in, linear radiance and timings out.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +39,12 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
+/// How one picture is drawn, where not as the plan says.
+struct RenderRun {
+    int samples = 0;                          ///< a pixel; 0: as many as the plan has
+    const std::atomic<bool>* stop = nullptr;  ///< once it is set, drawing ends with the present pass
+};
+
 /// The GLSL library, with the models that were loaded from files of their own (shading/brdf_file.hpp).
 gl::ShaderLibrary shaderLibrary();
 
@@ -50,12 +58,20 @@ public:
     explicit Renderer(gl::Context& context);
     ~Renderer();
 
-    /// Uploads what the plan needs of the scene. The scene is kept until the next call.
+    /// Uploads what the plan needs of the scene; textures that are there already stay. The scene is kept
+    /// until the next call; it may be changed between pictures if it is set again before the next one.
     void setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options);
     /// The plan of the scene and options set last.
     const FramePlan& plan() const;
 
-    Picture render(const Camera& camera);
+    /// Pictures of another size from now on, with all else as it is.
+    void resize(int width, int height);
+
+    /// Called with the name of each program before it is compiled.
+    void onCompile(std::function<void(const std::string&)> callback);
+
+    /// A picture that was stopped has no pixels.
+    Picture render(const Camera& camera, const RenderRun& run = {});
 
 private:
     struct State;

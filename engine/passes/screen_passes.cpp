@@ -59,7 +59,7 @@ void AccumulatePass::prepare() {
 
 void AccumulatePass::run(const View&) {
     program_->use();
-    program_->set("uWeight", 1.0f / static_cast<float>(plan().samples));
+    program_->set("uWeight", 1.0f / static_cast<float>(resources().samples));
     program_->set("uRadiance", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindSampler(0, 0);

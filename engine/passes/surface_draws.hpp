@@ -39,6 +39,9 @@ public:
     void drawCasters(const PlannedPass& pass, const View& view,
                      const std::function<void(const gl::Program&)>& perProgram);
 
+    /// Gives the uploaded textures away, or takes them (GpuTextures::adopt).
+    GpuTextures& textures() { return textures_; }
+
 private:
     struct Geometry {
         gl::VertexArray vertexArray;

@@ -48,7 +48,39 @@ void forEachFile(const Settings& settings, Action action) {
         action(modelFile(file.get<std::string>()));
 }
 
+/// With the names and fingerprints that they have once `files` are registered, which this does.
+std::vector<ModelFile> registered(std::vector<ModelFile> files) {
+    std::vector<Brdf> models;
+    models.reserve(files.size());
+    for (ModelFile& file : files) {
+        models.push_back(brdfFromSource(file.source));
+        file.name = models.back().name;
+    }
+    std::vector<Brdf> before = loadedBrdfs();
+    setLoadedBrdfs(std::move(models));
+    try {
+        for (ModelFile& file : files) {
+            const std::string text = shaderLibrary().source("brdf/" + file.name + ".glsl", {}).text;
+            ContentHash hash;
+            hash.add(std::as_bytes(std::span(text)));
+            file.hash = hash.hex();
+        }
+    } catch (...) {
+        setLoadedBrdfs(std::move(before));
+        throw;
+    }
+    return files;
+}
+
 }  // namespace
+
+void rereadModelFiles() {
+    std::vector<ModelFile> files = modelFiles();
+    if (files.empty()) return;
+    for (ModelFile& file : files)
+        file.source = readBrdfSource(file.source.file);
+    modelFiles() = registered(std::move(files));
+}
 
 void loadModelFile(const std::string& file) {
     std::vector<ModelFile>& files = modelFiles();
@@ -58,19 +90,9 @@ void loadModelFile(const std::string& file) {
     if (files.size() == kMostFiles)
         throw UsageError(file + ": more than " + std::to_string(kMostFiles) +
                          " models from files; expected fewer");
-    ModelFile added{path, readBrdfSource(file), {}, {}};
-    std::vector<Brdf> models;
-    models.reserve(files.size() + 1);
-    for (const ModelFile& known : files)
-        models.push_back(brdfFromSource(known.source));
-    models.push_back(brdfFromSource(added.source));
-    added.name = models.back().name;
-    setLoadedBrdfs(std::move(models));
-    const std::string text = shaderLibrary().source("brdf/" + added.name + ".glsl", {}).text;
-    ContentHash hash;
-    hash.add(std::as_bytes(std::span(text)));
-    added.hash = hash.hex();
-    files.push_back(std::move(added));
+    std::vector<ModelFile> all = files;
+    all.push_back({path, readBrdfSource(file), {}, {}});
+    files = registered(std::move(all));
 }
 
 std::vector<std::string> modelNamesOf(const Settings& settings) {

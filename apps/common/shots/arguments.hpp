@@ -12,7 +12,9 @@ namespace lobe::app {
 /// One command's options. Add plain options to app(), then addSettings(), then parse().
 class Arguments {
 public:
-    Arguments(const std::string& command, const std::string& description);
+    /// Of `program`'s `command`; without one, of the program.
+    Arguments(const std::string& command, const std::string& description,
+              const std::string& program = "lobe");
     CLI::App& app() { return line_.app(); }
 
     /// --key for every setting, -D, -R, -r W H, -o, --config, --settings, --no-config.

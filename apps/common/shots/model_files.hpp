@@ -14,6 +14,10 @@ namespace lobe::app {
 /// registry. Throws InputError, UsageError, and ShaderError for includes that cannot be found.
 void loadModelFile(const std::string& file);
 
+/// Reads all files that are registered again, and registers what they are now. Throws as above, and then
+/// changes nothing.
+void rereadModelFiles();
+
 /// The names of the models of the setting's files.
 std::vector<std::string> modelNamesOf(const Settings& settings);
 /// Their sources.

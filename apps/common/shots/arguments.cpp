@@ -32,8 +32,8 @@ std::vector<std::string> withSizesJoined(const std::vector<std::string>& argumen
 
 }  // namespace
 
-Arguments::Arguments(const std::string& command, const std::string& description)
-    : line_("lobe " + command, description) {}
+Arguments::Arguments(const std::string& command, const std::string& description, const std::string& program)
+    : line_(command.empty() ? program : program + " " + command, description) {}
 
 void Arguments::addSettings() {
     for (const Setting& setting : settingTable()) {

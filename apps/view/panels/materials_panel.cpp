@@ -1,0 +1,302 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "panels.hpp"
+#include "plan/summary.hpp"
+#include "plot/lobes.hpp"
+#include "shading/fresnel.hpp"
+#include "shading/metals.hpp"
+#include "style.hpp"
+#include "viewer.hpp"
+
+namespace lobe::view {
+namespace {
+
+void put(Viewer& viewer, int index, Material material, const std::string& tag) {
+    Edits edits = viewer.document.edits();
+    edits.materials[index] = std::make_shared<const Material>(std::move(material));
+    viewer.document.edit(std::move(edits), tag);
+}
+
+/// The edited one, which may not have been drawn yet, or the drawn one.
+const Material& present(const Viewer& viewer, int index) {
+    const auto found = viewer.document.edits().materials.find(index);
+    return found != viewer.document.edits().materials.end()
+               ? *found->second
+               : viewer.drawn()->materials[static_cast<size_t>(index)];
+}
+
+std::string titleOf(const Material& material, int index) {
+    return std::to_string(index) + "  " + (material.name.empty() ? "(no name)" : material.name);
+}
+
+void drawParameterTooltip(const Parameter& parameter) {
+    if (!ImGui::IsItemHovered()) return;
+    ImGui::SetTooltip("%s\n%g to %g%s%s%s", parameter.description.c_str(), parameter.minimum,
+                      parameter.maximum, parameter.unit == "1" ? "" : " ",
+                      parameter.unit == "1" ? "" : parameter.unit.c_str(),
+                      "\nright click: default; Ctrl+click: type a value");
+}
+
+/// One parameter's control. True if it changed `values`.
+bool drawParameter(const Parameter& parameter, double* values) {
+    const auto [low, high] = parameter.usual.value_or(std::pair(parameter.minimum, parameter.maximum));
+    const std::string label = parameter.name + (parameter.unit == "1" ? "" : " [" + parameter.unit + "]");
+    if (parameter.kind == ParameterKind::choice) {
+        const auto at = static_cast<size_t>(values[0]);
+        bool changed = false;
+        if (ImGui::BeginCombo(label.c_str(), parameter.choices[at].c_str())) {
+            for (size_t i = 0; i < parameter.choices.size(); ++i)
+                if (ImGui::Selectable(parameter.choices[i].c_str(), i == at)) {
+                    values[0] = static_cast<double>(i);
+                    changed = true;
+                }
+            ImGui::EndCombo();
+        }
+        return changed;
+    }
+    // What spans many powers of ten is turned in ratios.
+    const bool wide = low > 0.0 && high / low > 100.0;
+    const char* format = high < 1e-2 ? "%.3e" : "%.4g";
+    if (parameter.kind == ParameterKind::scalar)
+        return ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, values, &low, &high, format,
+                                   wide ? ImGuiSliderFlags_Logarithmic : 0);
+    if (parameter.maximum <= 1.0 && parameter.minimum >= 0.0) {
+        float rgb[3] = {static_cast<float>(values[0]), static_cast<float>(values[1]),
+                        static_cast<float>(values[2])};
+        if (!ImGui::ColorEdit3(label.c_str(), rgb, ImGuiColorEditFlags_Float)) return false;
+        for (size_t c = 0; c < 3; ++c)
+            values[c] = double{rgb[c]};
+        return true;
+    }
+    return ImGui::SliderScalarN(label.c_str(), ImGuiDataType_Double, values, 3, &low, &high, format,
+                                wide ? ImGuiSliderFlags_Logarithmic : 0);
+}
+
+/// Whether the interface that the material has reads the parameter.
+bool isRead(const Brdf& brdf, const Material& material, const Parameter& parameter) {
+    if (parameter.group != "fresnel" || parameter.name == "fresnel") return true;
+    const int index = brdf.parameterIndex("fresnel");
+    if (index < 0) return true;
+    const auto type = static_cast<shading::FresnelType>(
+        static_cast<int>(material.values[static_cast<size_t>(brdf.valueOffset(index))]));
+    if (parameter.name == "f0") return type == shading::FresnelType::schlick;
+    if (parameter.name == "k") return type == shading::FresnelType::conductor;
+    if (parameter.name == "eta")
+        return type == shading::FresnelType::dielectric || type == shading::FresnelType::conductor;
+    return true;
+}
+
+void drawParameters(Viewer& viewer, int index, const Brdf& brdf) {
+    Material material = present(viewer, index);
+    ImGui::PushItemWidth(-0.42F * ImGui::GetContentRegionAvail().x);
+    for (size_t i = 0; i < brdf.parameters.size(); ++i) {
+        const Parameter& parameter = brdf.parameters[i];
+        const auto at = static_cast<size_t>(brdf.valueOffset(static_cast<int>(i)));
+        if (parameter.kind == ParameterKind::table) {
+            ImGui::Text("%s: %zu rows of the table", parameter.name.c_str(),
+                        brdf.tableOf(material.values).size() / 4);
+            continue;
+        }
+        ImGui::PushID(static_cast<int>(i));
+        const bool read = isRead(brdf, material, parameter);
+        ImGui::BeginDisabled(!read);
+        bool changed = drawParameter(parameter, material.values.data() + at);
+        viewer.mark("parameter " + parameter.name);
+        ImGui::EndDisabled();
+        if (!read && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+            ImGui::SetTooltip("without effect: the type of the interface does not read it");
+        else
+            drawParameterTooltip(parameter);
+        if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
+            for (int c = 0; c < parameter.components(); ++c)
+                material.values[at + static_cast<size_t>(c)] = parameter.defaultValue[c];
+            changed = true;
+        }
+        const TextureSlot& slot = material.textures[i];
+        if (slot) ImGui::TextDisabled("   times texture %d", slot.texture);
+        if (changed) {
+            for (int c = 0; c < parameter.components(); ++c) {
+                double& value = material.values[at + static_cast<size_t>(c)];
+                value = std::clamp(value, parameter.minimum, parameter.maximum);
+            }
+            viewer.attempt([&] {
+                validateParameters(brdf, material.values, material.name);
+                put(viewer, index, material, "material " + parameter.name);
+            });
+        }
+        ImGui::PopID();
+    }
+    ImGui::PopItemWidth();
+}
+
+void drawPresets(Viewer& viewer, int index, const Brdf& brdf) {
+    Material material = present(viewer, index);
+    if (!brdf.presets.empty() && ImGui::BeginCombo("published surface", "choose...")) {
+        for (const BrdfPreset& preset : brdf.presets) {
+            if (ImGui::Selectable(preset.name.c_str())) {
+                material.values = preset.values;
+                std::fill(material.textures.begin(), material.textures.end(), TextureSlot{});
+                put(viewer, index, material, "");
+            }
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.source.c_str());
+        }
+        ImGui::EndCombo();
+    }
+    const int fresnel = brdf.parameterIndex("fresnel");
+    if (fresnel < 0 || brdf.parameterIndex("eta") < 0 || !ImGui::BeginCombo("metal", "choose...")) return;
+    for (const shading::Metal& metal : shading::metals())
+        if (ImGui::Selectable(metal.name.c_str())) {
+            shading::setMetal(brdf, material.values, metal);
+            for (const char* name : {"eta", "k"})
+                material.textures[static_cast<size_t>(brdf.parameterIndex(name))] = {};
+            put(viewer, index, material, "");
+        }
+    ImGui::EndCombo();
+}
+
+/// f_r cos(theta_i) in the plane of incidence, for light at three angles.
+void drawPolarPlot(Viewer& viewer, const Brdf& brdf, const Material& material) {
+    if (!brdf.fCos) return ImGui::TextDisabled("no plot: the model is GLSL alone, without a twin");
+    if (!brdf.traits.scattersLight)
+        return ImGui::TextDisabled("no plot: the model mirrors and scatters nothing");
+    static std::string plotted;
+    static ParameterValues values;
+    static plot::Lobes lobes;
+    static std::string failure;
+    if (plotted != brdf.name || values != material.values) {
+        plotted = brdf.name;
+        values = material.values;
+        failure.clear();
+        try {
+            plot::LobesRequest request;
+            request.models = {plot::Model{&brdf, material.values}};
+            lobes = plot::computeLobes(plot::Sampler(), request);
+        } catch (const std::exception& error) {
+            lobes = {};
+            failure = error.what();
+        }
+    }
+    if (!failure.empty()) return ImGui::TextWrapped("%s", failure.c_str());
+    double peak = 0.0;
+    for (const plot::Lobe& lobe : lobes.lobes)
+        peak = std::max(peak, plot::peakOf(lobe.points));
+    const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+    const float radius = std::min(0.5F * width - 4.0F, 13.0F * line);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 foot(at.x + 0.5F * width, at.y + radius + 4.0F);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto point = [&](double angleDeg, double share) {
+        const double angle = angleDeg * M_PI / 180.0;
+        return ImVec2(foot.x + radius * static_cast<float>(share * std::sin(angle)),
+                      foot.y - radius * static_cast<float>(share * std::cos(angle)));
+    };
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+        list.PathClear();
+        for (int degrees = -90; degrees <= 90; degrees += 5)
+            list.PathLineTo(point(degrees, share));
+        list.PathStroke(IM_COL32(90, 90, 95, 255), 0, 1.0F);
+    }
+    for (int degrees = -90; degrees <= 90; degrees += 30)
+        list.AddLine(foot, point(degrees, 1.0), IM_COL32(90, 90, 95, 255));
+    const bool root = viewer.ui.polarRoot;
+    for (size_t i = 0; i < lobes.lobes.size() && peak > 0.0; ++i) {
+        const plot::Lobe& lobe = lobes.lobes[i];
+        list.PathClear();
+        for (const plot::LobePoint& p : lobe.points) {
+            const double share = std::max(p.value, 0.0) / peak;
+            list.PathLineTo(point(p.angle, root ? std::sqrt(share) : share));
+        }
+        list.PathStroke(seriesColor(i), 0, 2.0F);
+        list.AddLine(foot, point(-lobe.incidence, 1.0), (seriesColor(i) & 0x00FFFFFFU) | 0x80000000U, 1.5F);
+    }
+    ImGui::Dummy({width, radius + 8.0F});
+    viewer.mark("polar plot");
+    for (size_t i = 0; i < lobes.lobes.size(); ++i) {
+        if (i > 0) ImGui::SameLine();
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(seriesColor(i)), "%g\xC2\xB0",
+                           lobes.lobes[i].incidence);
+    }
+    ImGui::SameLine();
+    ImGui::Text("of incidence; outermost %.3g /sr", peak);
+    ImGui::Checkbox("square root of the radius", &viewer.ui.polarRoot);
+}
+
+void drawModelChoice(Viewer& viewer, int index) {
+    const Material& material = present(viewer, index);
+    if (!ImGui::BeginCombo("model", material.brdf.c_str())) {
+        viewer.mark("model");
+        return;
+    }
+    for (const std::string& name : brdfNames())
+        if (ImGui::Selectable(name.c_str(), name == material.brdf))
+            viewer.attempt([&] {
+                put(viewer, index, withModel(*viewer.document.scene(), material, requireBrdf(name)), "");
+            });
+    ImGui::EndCombo();
+}
+
+void drawGeneral(Viewer& viewer, int index) {
+    Material material = present(viewer, index);
+    if (!ImGui::CollapsingHeader("Surface")) return;
+    bool changed = false;
+    float emission[3] = {material.emission.r, material.emission.g, material.emission.b};
+    changed |= ImGui::DragFloat3("emission [W/m\xC2\xB2/sr]", emission, 0.01F, 0.0F, 1e6F, "%.3g");
+    if (material.normalTexture)
+        changed |= ImGui::SliderFloat("normal scale", &material.normalScale, 0.0F, 4.0F, "%.3g");
+    if (material.alphaMode == AlphaMode::mask)
+        changed |= ImGui::SliderFloat("alpha cutoff", &material.alphaCutoff, 0.0F, 1.0F, "%.3g");
+    if (material.alphaMode == AlphaMode::blend)
+        changed |= ImGui::SliderFloat("alpha", &material.alpha, 0.0F, 1.0F, "%.3g");
+    changed |= ImGui::Checkbox("both sides", &material.doubleSided);
+    if (!changed) return;
+    material.emission = {std::max(0.0F, emission[0]), std::max(0.0F, emission[1]),
+                         std::max(0.0F, emission[2])};
+    put(viewer, index, material, "surface");
+}
+
+}  // namespace
+
+void drawMaterialsPanel(Viewer& viewer) {
+    const DrawnScene* drawn = viewer.drawn();
+    if (drawn == nullptr || drawn->materials.empty()) return ImGui::TextDisabled("no picture yet");
+    int& index = viewer.ui.material;
+    const auto count = static_cast<int>(drawn->materials.size());
+    if (index >= count) index = -1;
+    ImGui::SetNextItemWidth(-1.0F);
+    if (ImGui::BeginCombo("##material", index < 0 ? "click a surface, or choose here"
+                                                  : titleOf(present(viewer, index), index).c_str())) {
+        for (int i = 0; i < count; ++i)
+            if (ImGui::Selectable(titleOf(present(viewer, i), i).c_str(), i == index)) index = i;
+        ImGui::EndCombo();
+    }
+    viewer.mark("material");
+    if (index < 0) return;
+    ImGui::BeginChild("material");
+    ImGui::PushItemWidth(-0.42F * ImGui::GetContentRegionAvail().x);
+    drawModelChoice(viewer, index);
+    const Brdf* brdf = findBrdf(present(viewer, index).brdf);
+    if (brdf != nullptr) {
+        ImGui::TextWrapped("%s. %s", brdf->title.c_str(), brdf->source.c_str());
+        drawPresets(viewer, index, *brdf);
+    }
+    ImGui::PopItemWidth();
+    ImGui::Separator();
+    if (brdf != nullptr) {
+        drawParameters(viewer, index, *brdf);
+        drawPolarPlot(viewer, *brdf, present(viewer, index));
+    } else {
+        ImGui::TextWrapped("Unlit: emission is all there is. A model makes it take light.");
+    }
+    drawGeneral(viewer, index);
+    if (viewer.document.edits().materials.contains(index) && ImGui::Button("As in the file")) {
+        Edits edits = viewer.document.edits();
+        edits.materials.erase(index);
+        viewer.document.edit(std::move(edits));
+    }
+    ImGui::EndChild();
+}
+
+}  // namespace lobe::view
