@@ -21,12 +21,6 @@ class Panels(ViewTest):
         time.sleep(0.2)
         view.key("Return")
 
-    def slide(self, view, control, share):
-        """Presses a slider at a share of its width."""
-        view.place(control)
-        place = view.places[control]
-        view.click(place["x"] + place["width"] * 0.58 * share, place["y"] + place["height"] / 2)
-
     def test_settings_change_the_picture_and_undo_takes_it_back(self):
         view = self.ready(self.scene, "--camera=far")
         before = view.settle()
@@ -34,8 +28,7 @@ class Panels(ViewTest):
         view.input("type", "tone")
         time.sleep(0.4)
         view.press("setting tone_mapping")
-        time.sleep(0.3)
-        view.key("Down", "Down", "Return")
+        view.press("choice agx")
         changed = view.wait_for(lambda e: e["settings"]["tone_mapping"] != "none" and not e["moving"], "picture")
         self.assert_shows(view, view.settle())
         view.click(200, 200)
@@ -53,28 +46,27 @@ class Panels(ViewTest):
         self.assertEqual(picked["material"], 0)
         first = view.settle()
         mark = view.mark()
-        self.slide(view, "parameter diffuse", 0.1)
         view.drag(*view.place("parameter diffuse"), view.place("parameter diffuse")[0] - 60, view.place("parameter diffuse")[1])
         time.sleep(0.5)
+        view.key("ctrl+1")  # the mark of what was picked goes
         view.settle()
         view.move(2, 850)
         time.sleep(0.3)
         edited = view.image()
-        self.assertNotEqual(edited, self.rendered(first))
-        view.click(200, 100)  # beside the square: nothing is chosen anew
+        self.assertFalse(edited == self.rendered(first))
         view.key("ctrl+e")
         view.message("wrote out/quad_1.gltf", mark)
         exported = view.cwd / "out/quad_1.gltf"
         extension = json.loads(exported.read_text())["materials"][0]["extensions"]["LOBE_materials_brdf"]
         self.assertEqual(extension["model"], "lambert")
         self.assertNotEqual(extension["diffuse"], [1.0, 1.0, 1.0])
-        self.assertEqual(edited, self.rendered(view.settle(), exported))
+        self.assert_rows(edited, self.rendered(view.settle(), exported))
         view.key("ctrl+z")
         time.sleep(0.3)
         self.assert_shows(view, view.settle())
 
     def test_lights_are_added_moved_by_their_handle_and_exported(self):
-        view = self.ready(self.scene, "--camera=far")
+        view = self.ready(self.scene, "--camera-position=0,1,14")
         view.key("ctrl+3")
         view.press("add light")
         time.sleep(0.3)
@@ -82,20 +74,24 @@ class Panels(ViewTest):
         view.press("add point")
         mark = view.mark()
         view.settle()
-        view.key("ctrl+3")
-        time.sleep(0.5)
         mark = view.mark()
-        if "handle center" in view.places:
-            x, y = view.place("handle center")
-            view.drag(x, y, x + 30, y + 40)
-            view.wait_for(lambda e: True, "picture", mark)
+        x, y = view.place("handle center")
+        before = view.settle()
+        view.drag(x, y, x + 30, y + 40)
+        view.wait_for(lambda e: True, "picture", mark)
         event = view.settle()
+        self.assertEqual(event["settings"], before["settings"])  # it was the light that moved, not the camera
+        view.key("ctrl+1")  # the handles go
         view.key("ctrl+e")
         view.message("wrote out/quad_1.gltf")
         exported = view.cwd / "out/quad_1.gltf"
         lights = json.loads(exported.read_text())["extensions"]["KHR_lights_punctual"]["lights"]
         self.assertEqual([light["type"] for light in lights], ["directional", "point"])
-        self.assert_shows(view, event, exported)
+        view.move(2, 850)
+        time.sleep(0.3)
+        # A direction comes back from a matrix with other last digits, which rounding to 8 bits may show.
+        worst = max(abs(a - b) for left, right in zip(view.image(), self.rendered(event, exported)) for a, b in zip(left, right))
+        self.assertLessEqual(worst, 1)
 
     def test_the_truth_is_computed_beside_and_the_error_is_shown(self):
         view = self.ready(self.scene, "--camera=far", "--anti-aliasing=none")
@@ -147,13 +143,13 @@ class Panels(ViewTest):
         self.assertIn("broken", message["text"])
         self.assert_shows(view, view.settle())
         mark = view.mark()
-        file.write_text(good.replace("return ", "return 0.5 * ", 1))
+        file.write_text(good.replace("INV_PI * d.wi.z", "0.5 * INV_PI * d.wi.z"))
         view.message("shaders reloaded", mark)
         view.picture(mark)
         view.settle()
         view.move(2, 850)
         time.sleep(0.3)
-        self.assertNotEqual(view.image(), self.rendered(before))
+        self.assertFalse(view.image() == self.rendered(before))
 
     def test_a_model_of_ones_own_and_a_batch_open(self):
         view = self.ready(self.scene, "--camera=far")

@@ -65,16 +65,18 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(channels, 3)
         return rows
 
+    def assert_rows(self, shown, rows):
+        self.assertEqual((len(shown[0]), len(shown)), (len(rows[0]), len(rows)))
+        different = sum(a != b for left, right in zip(shown, rows) for a, b in zip(left, right))
+        self.assertEqual(different, 0, f"{different} bytes differ from lobe render's")
+
     def assert_shows(self, view, event, scene=None):
         """The window shows what `lobe render` makes, pixel for pixel."""
         view.move(2, 850)  # the pointer is drawn over the picture
         time.sleep(0.3)
         rows = self.rendered(event, scene)
-        shown = view.image()
-        self.assertEqual((len(shown[0]), len(shown)), (len(rows[0]), len(rows)))
         self.assertGreater(len(set(b"".join(rows))), 1, "the picture has one colour")
-        different = sum(a != b for left, right in zip(shown, rows) for a, b in zip(left, right))
-        self.assertEqual(different, 0, f"{different} bytes differ from lobe render's")
+        self.assert_rows(view.image(), rows)
 
 
 class Pictures(ViewTest):
@@ -211,10 +213,10 @@ class Keys(ViewTest):
         event = view.settle()
         view.key("ctrl+F12")
         view.message("wrote out/quad_1.png")
-        self.assertEqual(png_pixels(view.cwd / "out/quad_1.png")[3], self.rendered(event))
+        self.assert_rows(png_pixels(view.cwd / "out/quad_1.png")[3], self.rendered(event))
         again = lobe("render", "--reproduce", view.cwd / "out/quad_1.png", "-o", "again.png", "-q", cwd=self.folder)
         self.assertEqual(again.stderr, "")
-        self.assertEqual(png_pixels(self.folder / "again.png")[3], self.rendered(event))
+        self.assert_rows(png_pixels(self.folder / "again.png")[3], self.rendered(event))
         view.key("F12")
         view.message("wrote out/quad_1_window.png")
         width, height, _, rows = png_pixels(view.cwd / "out/quad_1_window.png")
@@ -229,7 +231,7 @@ class Keys(ViewTest):
         view.message("wrote out/quad_1.json")
         state = view.cwd / "out/quad_1.json"
         lobe("render", self.scene, "--no-config", "--settings", state, "-o", "s.png", "-q", cwd=self.folder)
-        self.assertEqual(png_pixels(self.folder / "s.png")[3], self.rendered(event))
+        self.assert_rows(png_pixels(self.folder / "s.png")[3], self.rendered(event))
         view.key("Return")
         view.settle()
         view.key("ctrl+o")

@@ -58,13 +58,16 @@ std::vector<std::string> choicesOf(const Viewer& viewer, const Setting& setting)
 }
 
 /// A value that may be absent, among names. Returns the chosen one.
-std::optional<json> choose(const json& value, const std::vector<std::string>& names, bool mayBeAbsent) {
+std::optional<json> choose(Viewer& viewer, const json& value, const std::vector<std::string>& names,
+                           bool mayBeAbsent) {
     std::optional<json> chosen;
     const std::string shown = value.is_string() ? value.get<std::string>() : "(as it is)";
     if (!ImGui::BeginCombo("##value", shown.c_str())) return chosen;
     if (mayBeAbsent && ImGui::Selectable("(as it is)", value.is_null())) chosen = json();
-    for (const std::string& name : names)
+    for (const std::string& name : names) {
         if (ImGui::Selectable(name.c_str(), value == name)) chosen = name;
+        viewer.mark("choice " + name);
+    }
     ImGui::EndCombo();
     return chosen;
 }
@@ -174,13 +177,13 @@ std::optional<json> edit(Viewer& viewer, const Setting& setting) {
     switch (setting.type) {
         case SettingType::text:
             if (setting.key == "camera" && viewer.document.scene())
-                return choose(value, choicesOf(viewer, setting), true);
+                return choose(viewer, value, choicesOf(viewer, setting), true);
             return editText(value);
         case SettingType::integer:
         case SettingType::real:
             return editNumber(value, setting);
         case SettingType::choice:
-            return choose(value, choicesOf(viewer, setting), setting.defaultValue.is_null());
+            return choose(viewer, value, choicesOf(viewer, setting), setting.defaultValue.is_null());
         case SettingType::vector:
             return editVector(value);
         case SettingType::colour:
