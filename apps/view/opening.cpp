@@ -33,8 +33,7 @@ void openModel(Viewer& viewer, const std::string& file) {
     json files = viewer.document.settings()->get("brdf_file");
     if (files.is_null()) files = json::array();
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
-    viewer.truth.stop();
-    viewer.worker.whileIdle([&] { app::loadModelFile(file); });
+    viewer.whileIdle([&] { app::loadModelFile(file); });
     viewer.worker.reload();
     viewer.document.changeAll({{"brdf_file", files}, {"brdf", fs::path(file).stem().string()}}, file);
 }
@@ -90,8 +89,7 @@ void openJson(Viewer& viewer, const fs::path& file) {
     const json all = settings.toJson();
     for (const auto& [key, value] : all.items())
         if (value != plain.get(key)) values[key] = value;
-    viewer.truth.stop();
-    viewer.worker.whileIdle([&] { viewer.document.changeAll(values, file.string()); });
+    viewer.whileIdle([&] { viewer.document.changeAll(values, file.string()); });
     viewer.camera.forget();
     viewer.say(file.string() + ": settings taken over");
 }

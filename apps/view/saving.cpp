@@ -106,8 +106,7 @@ void Viewer::useState(const std::string& text, const std::string& origin) {
         const json values = json::parse(text, nullptr, false);
         if (!values.is_object())
             throw UsageError(origin + ": is no state; expected a JSON object of settings");
-        truth.stop();
-        worker.whileIdle([&] { document.changeAll(values, origin); });
+        whileIdle([&] { document.changeAll(values, origin); });
         camera.forget();
         say(origin + ": settings taken over");
     });

@@ -13,20 +13,42 @@ constexpr double kRounds[] = {0.2, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
 }  // namespace
 
+TruthWorker::TruthWorker(std::function<void()> wake) : wake_(std::move(wake)), thread_([this] { run(); }) {}
+
+TruthWorker::~TruthWorker() {
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+        stop_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
 void TruthWorker::start(const TruthSubject& subject) {
-    stop();
-    subject_ = subject;
-    stop_ = false;
-    state_.running = true;
-    thread_ = std::thread([this, subject] { run(subject); });
+    {
+        const std::lock_guard lock(mutex_);
+        subject_ = subject;
+        next_ = subject;
+        state_ = {};
+        state_.running = true;
+        stop_ = true;  // of the one in work
+    }
+    changed_.notify_all();
 }
 
 void TruthWorker::stop() {
-    stop_ = true;
-    if (thread_.joinable()) thread_.join();
     const std::lock_guard lock(mutex_);
-    state_ = {};
     subject_ = {};
+    next_.reset();
+    state_ = {};
+    stop_ = true;
+}
+
+void TruthWorker::stopAndWait() {
+    stop();
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !working_; });
 }
 
 TruthState TruthWorker::state() const {
@@ -34,14 +56,35 @@ TruthState TruthWorker::state() const {
     return state_;
 }
 
-void TruthWorker::run(const TruthSubject& subject) {
-    const auto change = [&](const std::function<void(TruthState&)>& action) {
+void TruthWorker::run() {
+    for (;;) {
+        TruthSubject subject;
         {
-            const std::lock_guard lock(mutex_);
-            action(state_);
+            std::unique_lock lock(mutex_);
+            working_ = false;
+            changed_.notify_all();
+            changed_.wait(lock, [this] { return ended_ || next_; });
+            if (ended_) return;
+            subject = *next_;
+            next_.reset();
+            stop_ = false;
+            working_ = true;
         }
-        wake_();
-    };
+        compute(subject);
+    }
+}
+
+/// Nothing once another truth is wanted, whose state it is then.
+void TruthWorker::change(const std::function<void(TruthState&)>& action) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (stop_) return;
+        action(state_);
+    }
+    wake_();
+}
+
+void TruthWorker::compute(const TruthSubject& subject) {
     try {
         const std::shared_ptr<const Scene> scene =
             composedScene(subject.base, *subject.settings, subject.edits);
@@ -64,7 +107,7 @@ void TruthWorker::run(const TruthSubject& subject) {
                 ++state.rounds;
             });
         };
-        const auto compute = [&](double error, const Image* earlier) {
+        const auto round = [&](double error, const Image* earlier) {
             request.relativeError = error;
             return reference::computeTruth(
                 scene, camera, request, earlier, stop_,
@@ -79,14 +122,14 @@ void TruthWorker::run(const TruthSubject& subject) {
         // A small one first, for something to look at.
         request.width = std::max(1, options.width / kFirstPart);
         request.height = std::max(1, options.height / kFirstPart);
-        reference::TruthResult first = compute(kRounds[0], nullptr);
+        reference::TruthResult first = round(kRounds[0], nullptr);
         if (!stop_) give(std::make_shared<const Image>(std::move(first.image)), first.relativeError);
         request.width = options.width;
         request.height = options.height;
         std::shared_ptr<const Image> best;
         for (const double error : kRounds) {
             if (stop_) break;
-            reference::TruthResult result = compute(error, best.get());
+            reference::TruthResult result = round(error, best.get());
             if (stop_) break;
             best = std::make_shared<const Image>(std::move(result.image));
             give(best, result.relativeError);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -32,22 +34,29 @@ struct TruthState {
 
 class TruthWorker {
 public:
-    explicit TruthWorker(std::function<void()> wake) : wake_(std::move(wake)) {}
-    ~TruthWorker() { stop(); }
+    explicit TruthWorker(std::function<void()> wake);
+    ~TruthWorker();
     TruthWorker(const TruthWorker&) = delete;
     TruthWorker& operator=(const TruthWorker&) = delete;
 
-    void start(const TruthSubject& subject);  ///< stops another one first
+    void start(const TruthSubject& subject);  ///< in place of another one; does not wait for its end
     void stop();                              ///< and forgets
+    void stopAndWait();                       ///< until nothing of it is in use any more
     TruthState state() const;
     const TruthSubject& subject() const { return subject_; }
 
 private:
-    void run(const TruthSubject& subject);
+    void run();
+    void compute(const TruthSubject& subject);
+    void change(const std::function<void(TruthState&)>& action);
+
     std::function<void()> wake_;
-    TruthSubject subject_;
+    TruthSubject subject_;  ///< the caller's
     std::atomic<bool> stop_ = false;
-    mutable std::mutex mutex_;
+    mutable std::mutex mutex_;  ///< of all that follows
+    std::condition_variable changed_;
+    std::optional<TruthSubject> next_;
+    bool working_ = false, ended_ = false;
     TruthState state_;
     std::thread thread_;
 };

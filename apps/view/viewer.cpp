@@ -52,6 +52,7 @@ Viewer::Viewer(const ViewerOptions& given)
 
 Viewer::~Viewer() {
     preferences.panels = ui.panels;
+    if (!options.windowSize) std::tie(preferences.width, preferences.height) = window.size();
     preferences.save();
     truth.stop();
 }
@@ -71,6 +72,14 @@ void Viewer::attempt(const std::function<void()>& action) {
     } catch (const std::exception& error) {
         say(error.what(), true);
     }
+}
+
+void Viewer::whileIdle(const std::function<void()>& action) {
+    truth.stopAndWait();
+    if (explaining_.valid()) explaining_.wait();
+    worker.whileIdle(action);
+    requested_.reset();  // what was in work was given up
+    requestedOther_.reset();
 }
 
 void Viewer::mark(const std::string& control) {
@@ -239,6 +248,7 @@ void Viewer::takeLoaded(LoadResult result) {
     }
     const bool another = result.request.file != document.file() || !result.request.again;
     attempt([&] {
+        textures.clear();
         document.setScene(result.request.file, std::move(result.scene), result.request.layers);
         loadedKey_ = loadKey();
     });
@@ -283,10 +293,7 @@ void Viewer::watchFiles() {
     shaders.setFiles(models);
     if (!shaders.changed()) return;
     say("shader files changed");
-    attempt([&] {
-        truth.stop();
-        worker.whileIdle([] { app::rereadModelFiles(); });
-    });
+    attempt([&] { whileIdle([] { app::rereadModelFiles(); }); });
     worker.reload();
 }
 

@@ -90,6 +90,8 @@ struct Viewer {
     void openNeighbour(int step);  ///< of the scene, in its folder or batch
     void reloadScene();
 
+    /// Runs `action` while no thread uses the registry of models, which it may change.
+    void whileIdle(const std::function<void()>& action);
     void say(const std::string& text, bool isError = false);
     /// Runs `action`; what it throws becomes a message.
     void attempt(const std::function<void()>& action);
@@ -140,6 +142,7 @@ struct Viewer {
     PassHistory history;
     std::map<std::string, WindowTexture> thumbnailTextures;
     std::map<std::string, std::string> thumbnailErrors;
+    std::map<int, WindowTexture> textures;  ///< small, of the scene's images
     std::string explanation;
     std::vector<app::Shot> batch;
     size_t batchIndex = 0;

@@ -171,6 +171,12 @@ void Window::endFrame(bool keepPixels) {
     glfwSwapBuffers(window_);
 }
 
+std::pair<int, int> Window::size() const {
+    std::pair<int, int> size;
+    glfwGetWindowSize(window_, &size.first, &size.second);
+    return size;
+}
+
 float Window::pixelsPerPoint() const {
     int width = 0, height = 0, pixels = 0;
     glfwGetWindowSize(window_, &width, &height);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "image/tone.hpp"
 #include "panels.hpp"
 #include "plan/summary.hpp"
 #include "plot/lobes.hpp"
@@ -89,6 +91,57 @@ bool isRead(const Brdf& brdf, const Material& material, const Parameter& paramet
     return true;
 }
 
+/// A picture of at most 128 texels a side: every nth texel.
+Bitmap smaller(const Bitmap& bitmap) {
+    const int step = std::max(1, (std::max(bitmap.width, bitmap.height) + 127) / 128);
+    Bitmap result{(bitmap.width + step - 1) / step, (bitmap.height + step - 1) / step, 3, ComponentType::u8, {}};
+    const auto size = bitmap.bytesPerComponent();
+    for (int y = 0; y < bitmap.height; y += step)
+        for (int x = 0; x < bitmap.width; x += step)
+            for (int c = 0; c < 3; ++c) {
+                const int channel = bitmap.channels >= 3 ? c : 0;
+                const size_t at = (static_cast<size_t>(y) * static_cast<size_t>(bitmap.width) +
+                                   static_cast<size_t>(x)) *
+                                      static_cast<size_t>(bitmap.channels) +
+                                  static_cast<size_t>(channel);
+                // Of 16 bits the high byte (little-endian); of floats the part from 0 to 1.
+                std::byte code = bitmap.data[at * size + (size == 2 ? 1 : 0)];
+                if (size == 4) {
+                    float value = 0.0F;
+                    std::memcpy(&value, bitmap.data.data() + at * size, sizeof value);
+                    code = static_cast<std::byte>(encodeSrgb8(value));
+                }
+                result.data.push_back(code);
+            }
+    return result;
+}
+
+void drawTexture(Viewer& viewer, const std::string& of, const TextureSlot& slot) {
+    if (!slot || !viewer.document.scene()) return;
+    const Scene& scene = *viewer.document.scene();
+    if (static_cast<size_t>(slot.texture) >= scene.textures.size()) return;
+    const int image = scene.textures[static_cast<size_t>(slot.texture)].image;
+    if (image < 0) return;
+    const Bitmap& bitmap = scene.images[static_cast<size_t>(image)];
+    WindowTexture& texture = viewer.textures[image];
+    if (!texture && !bitmap.data.empty()) texture.set(smaller(bitmap), true);
+    if (!texture) return;
+    const float side = 2.5F * ImGui::GetTextLineHeight();
+    ImGui::Image(texture.id(), {side, side});
+    if (ImGui::IsItemHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::Image(texture.id(), {8.0F * side, 8.0F * side * static_cast<float>(texture.height()) /
+                                                     static_cast<float>(texture.width())});
+        ImGui::EndTooltip();
+    }
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s times %s\n%dx%d texels", of.c_str(),
+                        static_cast<size_t>(image) < scene.imageNames.size()
+                            ? scene.imageNames[static_cast<size_t>(image)].c_str()
+                            : "an image",
+                        bitmap.width, bitmap.height);
+}
+
 void drawParameters(Viewer& viewer, int index, const Brdf& brdf) {
     Material material = present(viewer, index);
     ImGui::PushItemWidth(-0.42F * ImGui::GetContentRegionAvail().x);
@@ -115,8 +168,7 @@ void drawParameters(Viewer& viewer, int index, const Brdf& brdf) {
                 material.values[at + static_cast<size_t>(c)] = parameter.defaultValue[c];
             changed = true;
         }
-        const TextureSlot& slot = material.textures[i];
-        if (slot) ImGui::TextDisabled("   times texture %d", slot.texture);
+        drawTexture(viewer, parameter.name, material.textures[i]);
         if (changed) {
             for (int c = 0; c < parameter.components(); ++c) {
                 double& value = material.values[at + static_cast<size_t>(c)];
@@ -250,6 +302,9 @@ void drawGeneral(Viewer& viewer, int index) {
         changed |= ImGui::SliderFloat("alpha cutoff", &material.alphaCutoff, 0.0F, 1.0F, "%.3g");
     if (material.alphaMode == AlphaMode::blend)
         changed |= ImGui::SliderFloat("alpha", &material.alpha, 0.0F, 1.0F, "%.3g");
+    drawTexture(viewer, "normals", material.normalTexture);
+    drawTexture(viewer, "emission", material.emissionTexture);
+    drawTexture(viewer, "occlusion", material.occlusionTexture);
     changed |= ImGui::Checkbox("both sides", &material.doubleSided);
     if (!changed) return;
     material.emission = {std::max(0.0F, emission[0]), std::max(0.0F, emission[1]),
