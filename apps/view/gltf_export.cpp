@@ -109,7 +109,7 @@ void writeMaterials(json& gltf, const Scene& scene, const Edits& edits) {
         json& target = gltf["materials"][i];
         const std::string where = scene.file + ": materials[" + std::to_string(i) + "]";
         if (findBrdf(material->brdf) != nullptr && !(material->brdf == "metallic_roughness")) {
-            json old;
+            json old = json::object();
             if (target.contains("extensions") && target["extensions"].contains("LOBE_materials_brdf"))
                 old = target["extensions"]["LOBE_materials_brdf"];
             target["extensions"]["LOBE_materials_brdf"] = brdfOf(*material, old, where);

@@ -43,7 +43,7 @@ public:
     void beginFrame();
     void endFrame(bool keepPixels);
 
-    std::pair<int, int> size() const;  ///< points
+    std::pair<int, int> size() const;       ///< points
     float scale() const { return scale_; }  ///< of text and spacing against 96 dots an inch
     float pixelsPerPoint() const;           ///< framebuffer pixels a unit of ImGui
     GLFWwindow* handle() const { return window_; }

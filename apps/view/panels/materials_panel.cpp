@@ -94,16 +94,17 @@ bool isRead(const Brdf& brdf, const Material& material, const Parameter& paramet
 /// A picture of at most 128 texels a side: every nth texel.
 Bitmap smaller(const Bitmap& bitmap) {
     const int step = std::max(1, (std::max(bitmap.width, bitmap.height) + 127) / 128);
-    Bitmap result{(bitmap.width + step - 1) / step, (bitmap.height + step - 1) / step, 3, ComponentType::u8, {}};
+    Bitmap result{
+        (bitmap.width + step - 1) / step, (bitmap.height + step - 1) / step, 3, ComponentType::u8, {}};
     const auto size = bitmap.bytesPerComponent();
     for (int y = 0; y < bitmap.height; y += step)
         for (int x = 0; x < bitmap.width; x += step)
             for (int c = 0; c < 3; ++c) {
                 const int channel = bitmap.channels >= 3 ? c : 0;
-                const size_t at = (static_cast<size_t>(y) * static_cast<size_t>(bitmap.width) +
-                                   static_cast<size_t>(x)) *
-                                      static_cast<size_t>(bitmap.channels) +
-                                  static_cast<size_t>(channel);
+                const size_t at =
+                    (static_cast<size_t>(y) * static_cast<size_t>(bitmap.width) + static_cast<size_t>(x)) *
+                        static_cast<size_t>(bitmap.channels) +
+                    static_cast<size_t>(channel);
                 // Of 16 bits the high byte (little-endian); of floats the part from 0 to 1.
                 std::byte code = bitmap.data[at * size + (size == 2 ? 1 : 0)];
                 if (size == 4) {
