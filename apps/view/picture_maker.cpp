@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "shot_environment.hpp"
 #include "shot_scene.hpp"
 
 namespace lobe::view {
@@ -34,10 +35,22 @@ void PictureMaker::compose(const FrameRequest& request) {
     nlohmann::json changes = app::changesOf(*request.base, *request.settings);
     const nlohmann::json keyLight = changes.value("key_light", nlohmann::json());
     changes.erase("key_light");
+    // Turning the environment needs none of its texels, unless a blurred picture was made of them.
+    nlohmann::json turn = nlohmann::json::object();
+    if (changes.value("env_background", "") != "blur")
+        for (const char* key : {"env_rotation", "env_intensity"})
+            if (changes.contains(key)) {
+                turn[key] = changes[key];
+                changes.erase(key);
+            }
     const bool anew = request.base != base_ || changes != changes_ || scene_ == nullptr;
     if (anew) {
         base_.reset();
-        scene_ = composedScene(request.base, *request.settings, {});
+        app::Settings unturned = *request.settings;
+        for (const auto& [key, value] : turn.items())
+            unturned.reset(key, "window");
+        scene_ = composedScene(request.base, unturned, {});
+        environment_ = scene_->environment;
         materials_ = scene_->materials;
         lights_ = scene_->lights;
         base_ = request.base;
@@ -49,7 +62,10 @@ void PictureMaker::compose(const FrameRequest& request) {
         if (!keyLight.is_null()) addDefaultLight(*scene_, app::cameraOf(*base_, *request.settings, 0));
         lights_ = scene_->lights;
     }
-    if (!anew && keyLight == keyLight_ && request.edits == edits_) return;
+    if (!anew && keyLight == keyLight_ && request.edits == edits_ && turn == turn_) return;
+    scene_->environment = environment_;
+    if (!turn.empty()) app::turnEnvironment(*scene_->environment, *request.settings);
+    turn_ = std::move(turn);
     scene_->materials = materials_;
     scene_->lights = lights_;
     applyEdits(*scene_, request.edits);

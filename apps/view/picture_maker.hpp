@@ -42,6 +42,8 @@ private:
     nlohmann::json changes_, keyLight_;
     std::vector<Material> materials_;  ///< before they were edited
     std::vector<Light> lights_;
+    std::optional<Environment> environment_;  ///< before it was turned
+    nlohmann::json turn_;                     ///< settings that turn it and make it brighter
     Edits edits_;
     bool changed_ = true;  ///< since the renderer was given the scene
 

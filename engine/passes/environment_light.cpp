@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "environment/harmonics.hpp"
+#include "fit/table_cache.hpp"
 #include "math/low_discrepancy.hpp"
 
 namespace lobe {
@@ -62,10 +63,48 @@ environment::Request requestOf(const AreaForm& form, bool irradiance) {
     return request;
 }
 
+/// All that decides what is made for the environment of a scene, but for the texels of its images.
+std::string madeOf(const Environment& environment, const FramePlan& plan) {
+    std::string text;
+    const auto add = [&](const auto& value) {
+        text.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    add(environment.image);
+    add(environment.background ? environment.backgroundImage : -1);
+    add(plan.environmentMap);
+    add(plan.environmentSamples);
+    add(plan.quality.envDiffuse);
+    // Maps are turned and scaled where they are looked up; draws and harmonics are made of what they give.
+    if (plan.environmentSamples > 0 || plan.quality.envDiffuse != EnvironmentDiffuse::map) {
+        add(environment.worldFromMap);
+        add(environment.intensity);
+        add(environment.radiance);
+    }
+    for (const auto& [model, how] : plan.environmentMethods) {
+        if (how.method != EnvironmentMethod::prefiltered) continue;
+        const environment::Request request = requestOf(how.form, true);
+        text += model + " " + fit::tableKey(request.lobe);
+        add(request.widths.first);
+        add(request.widths.second);
+    }
+    return text;
+}
+
 }  // namespace
 
-EnvironmentLight::EnvironmentLight(const Scene& scene, const FramePlan& plan) {
+EnvironmentLight::EnvironmentLight(const Scene& scene, const FramePlan& plan, EnvironmentLight* earlier) {
     if (!scene.environment) return;
+    made_ = madeOf(*scene.environment, plan);
+    if (earlier != nullptr && earlier->made_ == made_) {
+        *this = std::move(*earlier);
+        // As EnvironmentMap has them, without the texels, of which it would make a copy.
+        Environment bare = *scene.environment;
+        if (bare.image >= 0) bare.radiance = glm::dvec3(1.0);
+        const EnvironmentMap turned(bare, nullptr);
+        mapFromWorld_ = glm::mat3(turned.mapFromWorld());
+        scale_ = glm::vec3(turned.scale());
+        return;
+    }
     const EnvironmentMap map = EnvironmentMap::of(scene);
     mapFromWorld_ = glm::mat3(map.mapFromWorld());
     scale_ = glm::vec3(map.scale());

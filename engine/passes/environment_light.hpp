@@ -15,8 +15,9 @@ namespace lobe {
 
 class EnvironmentLight {
 public:
-    /// Makes and uploads what the plan needs; prefiltered maps are kept on disk between runs.
-    EnvironmentLight(const Scene& scene, const FramePlan& plan);
+    /// Makes and uploads what the plan needs; prefiltered maps are kept on disk between runs. Where `earlier`,
+    /// of a scene with the same images, has it already, it is taken from there.
+    EnvironmentLight(const Scene& scene, const FramePlan& plan, EnvironmentLight* earlier = nullptr);
 
     /// `frame`: number of the jittered frame.
     void update(int frame) { frame_ = frame; }
@@ -39,6 +40,7 @@ private:
     };
     int bindMap(const gl::Program& program, int unit, const gl::Texture& map) const;
 
+    std::string made_;  ///< what decides all that is uploaded
     int frame_ = 0;
     glm::mat3 mapFromWorld_{1.0F};
     glm::vec3 scale_{1.0F};

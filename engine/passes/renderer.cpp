@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/resources.hpp"
@@ -51,7 +52,8 @@ struct Renderer::State {
     /// All that belongs to one scene and one set of options.
     struct SceneState {
         SceneState(std::shared_ptr<const Scene> sceneToDraw, const RenderOptions& renderOptions,
-                   FramePlan framePlan, const Capabilities& capabilities, ProgramCache& programs)
+                   FramePlan framePlan, const Capabilities& capabilities, ProgramCache& programs,
+                   EnvironmentLight* earlier)
             : scene(std::move(sceneToDraw)),
               options(renderOptions),
               plan(std::move(framePlan)),
@@ -60,7 +62,7 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               bodies(*scene, plan),
-              environment(*scene, plan),
+              environment(*scene, plan, earlier),
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights, bodies),
@@ -176,11 +178,15 @@ void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions&
         scene = std::make_shared<const Scene>(withSchlick(*scene));
     FramePlan plan = planFrame(summarise(*scene), options.quality, state_->capabilities, options.aovs);
     GpuTextures kept(*scene, options.quality.textureBits, state_->capabilities);
-    if (state_->hasImagesOf(*scene, options.quality))
+    std::optional<EnvironmentLight> environment;
+    if (state_->hasImagesOf(*scene, options.quality)) {
         kept.adopt(std::move(state_->current->surfaces.textures()));
+        environment = std::move(state_->current->environment);
+    }
     state_->current.reset();
     state_->current = std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan),
-                                                          state_->capabilities, state_->programs);
+                                                          state_->capabilities, state_->programs,
+                                                          environment ? &*environment : nullptr);
     state_->current->surfaces.textures().adopt(std::move(kept));
     gl::checkErrors("setting up the scene");
 }

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/rendering.hpp"
+#include "plan/knobs.hpp"
 
 namespace lobe {
 namespace {
@@ -79,6 +80,35 @@ TEST(Reuse, EditedScenesKeepTheirTexturesAndAreDrawnAsFreshOnes) {
     renderer.setScene(repainted, optionsOf(96, 64, 4));
     EXPECT_EQ(renderer.render(frontCamera()).image.values,
               render(*repainted, frontCamera(), optionsOf(96, 64, 4)).values);
+}
+
+TEST(Reuse, TurnedEnvironmentsKeepTheirMapsAndAreDrawnAsFreshOnes) {
+    for (const char* lighting : {"prefiltered", "sampled"})
+        for (const char* diffuse : {"map", "sh2"}) {
+            const auto scene = busyScene();
+            Bitmap sky{8, 4, 3, ComponentType::f32, {}};
+            for (int i = 0; i < 8 * 4 * 3; ++i) {
+                const float value = static_cast<float>((i * 37) % 11) * 0.1F;
+                const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+                sky.data.insert(sky.data.end(), bytes, bytes + sizeof value);
+            }
+            scene->images.push_back(sky);
+            scene->environment = Environment{};
+            scene->environment->image = 1;
+            RenderOptions options = optionsOf(64, 48, 1);
+            setKnob(options.quality, "env_lighting", lighting);
+            setKnob(options.quality, "env_diffuse", diffuse);
+            Renderer renderer(eglContext());
+            renderer.setScene(scene, options);
+            const Image before = renderer.render(frontCamera()).image;
+            scene->environment->worldFromMap =
+                glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(0.0, 1.0, 0.0)));
+            scene->environment->intensity = 1.7;
+            renderer.setScene(scene, options);
+            const Image turned = renderer.render(frontCamera()).image;
+            EXPECT_NE(before.values, turned.values);
+            EXPECT_EQ(turned.values, render(*scene, frontCamera(), options).values) << lighting << " " << diffuse;
+        }
 }
 
 TEST(Reuse, FewerSamplesAreThePictureOfThatPlan) {

@@ -96,6 +96,13 @@ json environmentChanges(const Scene& scene, const Settings& settings) {
     return changes;
 }
 
+void turnEnvironment(Environment& environment, const Settings& settings) {
+    const double turn = glm::radians(settings.get("env_rotation").get<double>());
+    environment.worldFromMap =
+        glm::dmat3(glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0.0, 1.0, 0.0))) * environment.worldFromMap;
+    environment.intensity *= settings.get("env_intensity").get<double>();
+}
+
 void applyEnvironment(Scene& scene, const Settings& settings) {
     if (environmentChanges(scene, settings).empty()) return;
     if (const json& file = settings.get("env"); !file.is_null()) {
@@ -110,10 +117,7 @@ void applyEnvironment(Scene& scene, const Settings& settings) {
         scene.contentHash = hash.hex();
     }
     Environment& environment = *scene.environment;
-    const double turn = glm::radians(settings.get("env_rotation").get<double>());
-    environment.worldFromMap =
-        glm::dmat3(glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0.0, 1.0, 0.0))) * environment.worldFromMap;
-    environment.intensity *= settings.get("env_intensity").get<double>();
+    turnEnvironment(environment, settings);
     const json& seen = settings.get("env_background");
     if (seen.is_null()) return;
     environment.background = seen != "hide";

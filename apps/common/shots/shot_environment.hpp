@@ -13,6 +13,9 @@ nlohmann::json environmentChanges(const Scene& scene, const Settings& settings);
 /// Whether there will be one.
 bool hasEnvironment(const Scene& scene, const Settings& settings);
 
+/// Turns it and makes it brighter, as the settings say.
+void turnEnvironment(Environment& environment, const Settings& settings);
+
 /// Changes the scene, its content's hash included. Throws InputError for a picture that cannot be read.
 void applyEnvironment(Scene& scene, const Settings& settings);
 
