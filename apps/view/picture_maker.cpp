@@ -74,17 +74,17 @@ void PictureMaker::compose(const FrameRequest& request) {
     changed_ = true;
 }
 
-void PictureMaker::set(const RenderOptions& options) {
+void PictureMaker::set(const RenderOptions& options, bool moving) {
     RenderOptions sized = options;
     sized.width = options_.width;
     sized.height = options_.height;
-    if (drawn_ && !changed_ && sized == options_) {
+    if (drawn_ && !changed_ && sized == options_ && (moving || !renderer_->borrowed())) {
         if (options != options_) renderer_->resize(options.width, options.height);
         options_ = options;
         return;
     }
     drawn_.reset();  // stays so if this fails
-    renderer_->setScene(scene_, options);
+    renderer_->setScene(scene_, options, moving);
     options_ = options;
     changed_ = false;
     auto drawn = std::make_shared<DrawnScene>();
@@ -136,7 +136,7 @@ std::optional<Frame> PictureMaker::tryToMake(const FrameRequest& request, double
         options.height = std::max(1, static_cast<int>(std::lround(scale * options.height)));
     }
     if (stop) return {};
-    set(options);
+    set(options, request.moving);
     frame.setMs = millisecondsSince(start);
     frame.drawn = drawn_;
     const auto drawing = Clock::now();

@@ -29,7 +29,7 @@ private:
     struct Stopped {};
     std::optional<Frame> tryToMake(const FrameRequest& request, double scale, const std::atomic<bool>& stop);
     void compose(const FrameRequest& request);
-    void set(const RenderOptions& options);
+    void set(const RenderOptions& options, bool moving);
     std::unique_ptr<Renderer> freshRenderer();
 
     gl::Context& context_;

@@ -84,19 +84,30 @@ std::string madeOf(const Environment& environment, const FramePlan& plan) {
         if (how.method != EnvironmentMethod::prefiltered) continue;
         const environment::Request request = requestOf(how.form, true);
         text += model + " " + fit::tableKey(request.lobe);
-        add(request.widths.first);
-        add(request.widths.second);
     }
+    return text;
+}
+
+/// And of each model's lobes.
+std::string widthsOf(const FramePlan& plan) {
+    std::string text;
+    for (const auto& [model, how] : plan.environmentMethods)
+        for (const double width : {how.form.widths.first, how.form.widths.second})
+            text.append(reinterpret_cast<const char*>(&width), sizeof width);
     return text;
 }
 
 }  // namespace
 
-EnvironmentLight::EnvironmentLight(const Scene& scene, const FramePlan& plan, EnvironmentLight* earlier) {
+EnvironmentLight::EnvironmentLight(const Scene& scene, const FramePlan& plan, EnvironmentLight* earlier,
+                                   bool borrow) {
     if (!scene.environment) return;
     made_ = madeOf(*scene.environment, plan);
-    if (earlier != nullptr && earlier->made_ == made_) {
+    widths_ = widthsOf(plan);
+    if (earlier != nullptr && earlier->made_ == made_ && (borrow || earlier->widths_ == widths_)) {
+        const bool others = earlier->widths_ != widths_;
         *this = std::move(*earlier);
+        borrowed_ = others;
         // As EnvironmentMap has them, without the texels, of which it would make a copy.
         Environment bare = *scene.environment;
         if (bare.image >= 0) bare.radiance = glm::dvec3(1.0);

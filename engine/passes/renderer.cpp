@@ -53,7 +53,7 @@ struct Renderer::State {
     struct SceneState {
         SceneState(std::shared_ptr<const Scene> sceneToDraw, const RenderOptions& renderOptions,
                    FramePlan framePlan, const Capabilities& capabilities, ProgramCache& programs,
-                   EnvironmentLight* earlier)
+                   EnvironmentLight* earlier, bool borrow)
             : scene(std::move(sceneToDraw)),
               options(renderOptions),
               plan(std::move(framePlan)),
@@ -62,7 +62,7 @@ struct Renderer::State {
               surfaces(*scene, plan, capabilities, programs, tables),
               lights(*scene, plan),
               bodies(*scene, plan),
-              environment(*scene, plan, earlier),
+              environment(*scene, plan, earlier, borrow),
               inputs(*scene, plan, tables),
               rays(plan.rays ? RayScene(*scene, capabilities.maxTextureBufferTexels) : RayScene()),
               shadowMaps(*scene, plan, lights, bodies),
@@ -172,7 +172,7 @@ struct Renderer::State {
 Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(context)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options) {
+void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options, bool borrow) {
     state_->requireSize(options.width, options.height);
     if (options.quality.fresnel == FresnelEquations::schlick)
         scene = std::make_shared<const Scene>(withSchlick(*scene));
@@ -184,11 +184,15 @@ void Renderer::setScene(std::shared_ptr<const Scene> scene, const RenderOptions&
         environment = std::move(state_->current->environment);
     }
     state_->current.reset();
-    state_->current = std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan),
-                                                          state_->capabilities, state_->programs,
-                                                          environment ? &*environment : nullptr);
+    state_->current =
+        std::make_unique<State::SceneState>(std::move(scene), options, std::move(plan), state_->capabilities,
+                                            state_->programs, environment ? &*environment : nullptr, borrow);
     state_->current->surfaces.textures().adopt(std::move(kept));
     gl::checkErrors("setting up the scene");
+}
+
+bool Renderer::borrowed() const {
+    return state_->current->environment.borrowed();
 }
 
 void Renderer::resize(int width, int height) {

@@ -60,7 +60,10 @@ public:
 
     /// Uploads what the plan needs of the scene; textures that are there already stay. The scene is kept
     /// until the next call; it may be changed between pictures if it is set again before the next one.
-    void setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options);
+    /// With `borrow`, maps of the environment that take long to make may be those of a similar scene before.
+    void setScene(std::shared_ptr<const Scene> scene, const RenderOptions& options, bool borrow = false);
+    /// Whether they are.
+    bool borrowed() const;
     /// The plan of the scene and options set last.
     const FramePlan& plan() const;
 

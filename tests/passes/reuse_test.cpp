@@ -107,8 +107,36 @@ TEST(Reuse, TurnedEnvironmentsKeepTheirMapsAndAreDrawnAsFreshOnes) {
             renderer.setScene(scene, options);
             const Image turned = renderer.render(frontCamera()).image;
             EXPECT_NE(before.values, turned.values);
-            EXPECT_EQ(turned.values, render(*scene, frontCamera(), options).values) << lighting << " " << diffuse;
+            EXPECT_EQ(turned.values, render(*scene, frontCamera(), options).values)
+                << lighting << " " << diffuse;
         }
+}
+
+TEST(Reuse, BorrowedMapsAreCloseAndGiveWayToTheirOwn) {
+    const auto scene = busyScene();
+    scene->materials[0].brdf = "metallic_roughness";
+    scene->materials[0].values = requireBrdf("metallic_roughness").defaults();
+    scene->materials[0].textures.assign(requireBrdf("metallic_roughness").parameters.size(), {});
+    scene->materials[0].textureChannels.assign(requireBrdf("metallic_roughness").parameters.size(), 0);
+    setParameter(scene->materials[0], "roughness", glm::dvec3(0.5));
+    scene->environment = Environment{};
+    const RenderOptions options = optionsOf(64, 48, 1);
+    Renderer renderer(eglContext());
+    renderer.setScene(scene, options);
+    renderer.render(frontCamera());
+    EXPECT_FALSE(renderer.borrowed());
+    setParameter(scene->materials[0], "roughness", glm::dvec3(0.55));
+    renderer.setScene(scene, options, true);
+    const Image near = renderer.render(frontCamera()).image;
+    EXPECT_TRUE(renderer.borrowed());
+    renderer.setScene(scene, options);
+    EXPECT_FALSE(renderer.borrowed());
+    const Image own = renderer.render(frontCamera()).image;
+    EXPECT_EQ(own.values, render(*scene, frontCamera(), options).values);
+    double worst = 0.0;
+    for (size_t i = 0; i < own.values.size(); ++i)
+        worst = std::max(worst, double{std::abs(own.values[i] - near.values[i])});
+    EXPECT_LT(worst, 0.2);
 }
 
 TEST(Reuse, FewerSamplesAreThePictureOfThatPlan) {
