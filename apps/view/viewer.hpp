@@ -79,6 +79,9 @@ struct Ui {
     std::string reportAnswer;
 };
 
+/// Seconds without a change after which the picture is drawn in full.
+inline constexpr double kSettleSeconds = 0.15;
+
 struct Viewer {
     explicit Viewer(const ViewerOptions& options);
     ~Viewer();
