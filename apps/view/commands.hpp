@@ -19,7 +19,8 @@ struct Command {
         {};                                        ///< why it would do nothing now; empty text: it would
     std::function<bool(const Viewer&)> isOn = {};  ///< of what can be on and off
 
-    std::string keyText() const;  ///< "Ctrl+Shift+R"
+    std::string keyText() const;                            ///< "Ctrl+Shift+R"
+    std::string reasonAgainst(const Viewer& viewer) const;  ///< whyNot, where there is one
 };
 
 const std::vector<Command>& commandTable();

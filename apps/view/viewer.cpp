@@ -125,10 +125,19 @@ int Viewer::run() {
         }
         loadIfChanged();
         requestFrames();
+        announceRest();
         window.endFrame(wantsSave);
         if (std::exchange(wantsSave, false)) attempt([this] { saveWindow(); });
     }
     return 0;
+}
+
+/// For --events: what is shown is what was asked for.
+void Viewer::announceRest() {
+    const bool rests = requested_ && !requested_->moving && frame && frame->number == requested_->number &&
+                       !camera.moving() && loading.loading().empty();
+    if (rests && announced_ != frame->number) events.add("rest", {{"number", frame->number}});
+    announced_ = rests ? frame->number : 0;
 }
 
 void Viewer::drawInterface() {

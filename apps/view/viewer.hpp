@@ -169,6 +169,7 @@ private:
     void loadIfChanged();
     nlohmann::json loadKey() const;
     void drawInterface();
+    void announceRest();
     void record(const Frame& shownFrame);
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -183,7 +184,7 @@ private:
     std::shared_ptr<const DrawnScene> historyDrawn_;
     int settle_ = 3;  ///< frames that ImGui needs after input
     double lastFrame_ = 0.0;
-    bool announced_ = false;
+    uint64_t announced_ = 0;  ///< the frame at which all was at rest; 0: it is not
 };
 
 }  // namespace lobe::view

@@ -167,11 +167,11 @@ class View:
         count, since = -1, time.monotonic()
         while time.monotonic() < deadline:
             self.poll()
-            pictures = [e for e in self.events if e["event"] == "picture"]
-            if len(pictures) != count:
-                count, since = len(pictures), time.monotonic()
-            elif pictures and not pictures[-1]["moving"] and time.monotonic() - since > quiet:
-                return pictures[-1]
+            seen = [e for e in self.events if e["event"] in ("picture", "rest")]
+            if len(seen) != count:
+                count, since = len(seen), time.monotonic()
+            elif seen and seen[-1]["event"] == "rest" and time.monotonic() - since > quiet:
+                return [e for e in seen if e["event"] == "picture"][-1]
             time.sleep(0.03)
         raise AssertionError("the picture does not come to rest")
 

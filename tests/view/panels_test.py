@@ -35,8 +35,9 @@ class Panels(ViewTest):
         view.key("ctrl+z")
         view.wait_for(lambda e: e["settings"]["tone_mapping"] == "none", "picture", view.events.index(changed))
         self.assertEqual(view.settle()["settings"], before["settings"])
+        mark = view.mark()
         view.key("ctrl+y")
-        view.picture(view.mark(), tone_mapping=changed["settings"]["tone_mapping"])
+        view.picture(mark, tone_mapping=changed["settings"]["tone_mapping"])
 
     def test_a_material_is_picked_edited_and_exported(self):
         view = self.ready(self.scene, "--camera=far")
@@ -153,8 +154,9 @@ class Panels(ViewTest):
 
     def test_a_model_of_ones_own_and_a_batch_open(self):
         view = self.ready(self.scene, "--camera=far")
+        mark = view.mark()
         self.open_file(view, ROOT / "docs/examples/brdf/minnaert.glsl")
-        event = view.picture(view.mark(), brdf="minnaert")
+        view.picture(mark, brdf="minnaert")
         self.assert_shows(view, view.settle())
         batch = self.folder / "batch.json"
         batch.write_text(json.dumps({"shots": [{"scene": "quad.gltf", "camera": "far", "exposure": -1},

@@ -2,8 +2,14 @@
 #pragma once
 
 namespace lobe::view {
-
 struct Viewer;
+}  // namespace lobe::view
+namespace lobe {
+struct Brdf;
+struct Material;
+}  // namespace lobe
+
+namespace lobe::view {
 
 void drawSettingsPanel(Viewer& viewer);
 void drawMaterialsPanel(Viewer& viewer);
@@ -13,6 +19,9 @@ void drawPlanPanel(Viewer& viewer);
 void drawTimePanel(Viewer& viewer);
 void drawPixelPanel(Viewer& viewer);
 void drawLogPanel(Viewer& viewer);
+
+/// f_r cos(theta_i) in the plane of incidence, for light at three angles.
+void drawPolarPlot(Viewer& viewer, const Brdf& brdf, const Material& material);
 
 void drawPanels(Viewer& viewer);  ///< the tabs with all of these
 void drawStatusBar(Viewer& viewer);
