@@ -82,18 +82,21 @@ std::string madeOf(const Environment& environment, const FramePlan& plan) {
     }
     for (const auto& [model, how] : plan.environmentMethods) {
         if (how.method != EnvironmentMethod::prefiltered) continue;
-        const environment::Request request = requestOf(how.form, true);
-        text += model + " " + fit::tableKey(request.lobe);
+        text += model + " ";
     }
     return text;
 }
 
-/// And of each model's lobes.
-std::string widthsOf(const FramePlan& plan) {
+/// And which lobes of each model it was made for.
+std::string lobesOf(const FramePlan& plan) {
     std::string text;
-    for (const auto& [model, how] : plan.environmentMethods)
-        for (const double width : {how.form.widths.first, how.form.widths.second})
+    for (const auto& [model, how] : plan.environmentMethods) {
+        if (how.method != EnvironmentMethod::prefiltered) continue;
+        const environment::Request request = requestOf(how.form, true);
+        text += fit::tableKey(request.lobe);
+        for (const double width : {request.widths.first, request.widths.second})
             text.append(reinterpret_cast<const char*>(&width), sizeof width);
+    }
     return text;
 }
 
@@ -103,9 +106,9 @@ EnvironmentLight::EnvironmentLight(const Scene& scene, const FramePlan& plan, En
                                    bool borrow) {
     if (!scene.environment) return;
     made_ = madeOf(*scene.environment, plan);
-    widths_ = widthsOf(plan);
-    if (earlier != nullptr && earlier->made_ == made_ && (borrow || earlier->widths_ == widths_)) {
-        const bool others = earlier->widths_ != widths_;
+    lobes_ = lobesOf(plan);
+    if (earlier != nullptr && earlier->made_ == made_ && (borrow || earlier->lobes_ == lobes_)) {
+        const bool others = earlier->lobes_ != lobes_;
         *this = std::move(*earlier);
         borrowed_ = others;
         // As EnvironmentMap has them, without the texels, of which it would make a copy.

@@ -17,7 +17,7 @@ class EnvironmentLight {
 public:
     /// Makes and uploads what the plan needs; prefiltered maps are kept on disk between runs. Where
     /// `earlier`, of a scene with the same images, has it already, it is taken from there; with `borrow` also
-    /// if it was made for other widths of the same models' lobes, whose nearest are looked up then.
+    /// if it was made for other lobes of the same models, in whose place they stand then.
     EnvironmentLight(const Scene& scene, const FramePlan& plan, EnvironmentLight* earlier = nullptr,
                      bool borrow = false);
     bool borrowed() const { return borrowed_; }
@@ -43,7 +43,7 @@ private:
     };
     int bindMap(const gl::Program& program, int unit, const gl::Texture& map) const;
 
-    std::string made_, widths_;  ///< what decides all that is uploaded
+    std::string made_, lobes_;  ///< what decides all that is uploaded
     bool borrowed_ = false;
     int frame_ = 0;
     glm::mat3 mapFromWorld_{1.0F};
