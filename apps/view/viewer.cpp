@@ -94,10 +94,13 @@ void Viewer::showPanel(Panel panel) {
 
 int Viewer::run() {
     lastFrame_ = seconds();
+    bool waited = false;
     while (!window.shouldClose()) {
         const bool lively = camera.moving() || settle_ > 0;
         const bool waiting = !worker.status().first.empty() || !loading.loading().empty() ||
                              truth.state().running || explaining_.valid();
+        if (waited && !waiting) settle_ = std::max(settle_, 2);  // what said so goes
+        waited = waiting;
         const bool preliminary =
             requested_ && requested_->moving;  // the full picture is still to be asked for
         const std::vector<std::string> dropped = window.wait(lively        ? 0.004
@@ -135,7 +138,7 @@ int Viewer::run() {
 /// For --events: what is shown is what was asked for.
 void Viewer::announceRest() {
     const bool rests = requested_ && !requested_->moving && frame && frame->number == requested_->number &&
-                       !camera.moving() && loading.loading().empty();
+                       !camera.moving() && loading.loading().empty() && worker.status().first.empty();
     if (rests && announced_ != frame->number) events.add("rest", {{"number", frame->number}});
     announced_ = rests ? frame->number : 0;
 }
