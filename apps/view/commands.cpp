@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "gltf_export.hpp"
 #include "viewer.hpp"
@@ -193,7 +195,18 @@ std::vector<Command> makeTable() {
 
 /// Held keys: W A S D E Q.
 void fly(Viewer& viewer, double seconds) {
-    const auto held = [](int key) { return ImGui::IsKeyDown(key) ? 1.0 : 0.0; };
+    // Of Ctrl+E the E may be let go last.
+    static std::set<int> pressedWithControl;
+    if (const std::optional<Window::Key> pressed = viewer.window.key()) {
+        if (pressed->control)
+            pressedWithControl.insert(pressed->key);
+        else
+            pressedWithControl.erase(pressed->key);
+    }
+    if (ImGui::GetIO().KeyCtrl || viewer.window.hasKeys()) return;
+    const auto held = [](int key) {
+        return ImGui::IsKeyDown(key) && !pressedWithControl.contains(key) ? 1.0 : 0.0;
+    };
     const glm::dvec3 way(held(GLFW_KEY_D) - held(GLFW_KEY_A), held(GLFW_KEY_E) - held(GLFW_KEY_Q),
                          held(GLFW_KEY_W) - held(GLFW_KEY_S));
     if (way == glm::dvec3(0.0) || !viewer.takeCamera()) return;
@@ -243,7 +256,7 @@ void handleKeys(Viewer& viewer, double seconds) {
         viewer.events.add("command",
                           {{"name", command.name}, {"key", command.keyText()}, {"done", reason.empty()}});
     }
-    if (!io.KeyCtrl) fly(viewer, seconds);
+    fly(viewer, seconds);
 }
 
 }  // namespace lobe::view

@@ -67,6 +67,7 @@ class Panels(ViewTest):
         extension = json.loads(exported.read_text())["materials"][0]["extensions"]["LOBE_materials_brdf"]
         self.assertEqual(extension["model"], "lambert")
         self.assertNotEqual(extension["diffuse"], [1.0, 1.0, 1.0])
+        self.assertEqual(view.settle()["settings"], first["settings"])  # Ctrl+E is not E, which flies
         self.assert_nearly(edited, self.rendered(view.settle(), exported))
         view.key("ctrl+z")
         time.sleep(0.3)
