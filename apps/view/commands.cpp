@@ -240,11 +240,8 @@ const std::vector<Command>& commandTable() {
 void handleKeys(Viewer& viewer, double seconds) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || ImGui::IsAnyItemActive()) return;
-<<<<<<< HEAD
     // Keys are those of dialogs, menus and lists while one is open.
     if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     const std::optional<Window::Key> pressed = viewer.window.key();
     for (const Command& command : commandTable()) {
         if (!pressed || pressed->key != command.key) continue;

@@ -1,10 +1,7 @@
 #include "document.hpp"
 
 #include <algorithm>
-<<<<<<< HEAD
 #include <array>
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
 #include <chrono>
 
 #include "base/error.hpp"
@@ -107,7 +104,6 @@ void Document::changeAll(const json& object, const std::string& origin) {
             app::requireSetting(given.substr(given.starts_with("!") ? 1 : 0), origin);
         state.changes[setting.key] = app::parseSetting(setting, value, origin);
     }
-<<<<<<< HEAD
     // One way to place the camera takes the place of another.
     constexpr std::array kCameraKeys{"camera", "camera_position", "camera_focal_point", "camera_azimuth",
                                      "camera_elevation"};
@@ -117,10 +113,6 @@ void Document::changeAll(const json& object, const std::string& origin) {
         for (const char* key : kCameraKeys)
             if (!object.contains(key)) state.changes[key] = nullptr;
     }
-=======
-    for (const char* key : {"camera", "camera_position", "camera_azimuth", "camera_elevation"})
-        if (object.contains(key)) pose_.reset();
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     settings_.reset();
     become(std::move(state), "");
 }

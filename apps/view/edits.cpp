@@ -1,17 +1,13 @@
 #include "edits.hpp"
 
-<<<<<<< HEAD
 #include <algorithm>
 
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
 #include "plan/summary.hpp"
 #include "scene/brdf_tables.hpp"
 #include "shot_scene.hpp"
 
 namespace lobe::view {
 
-<<<<<<< HEAD
 bool fitsModel(const Material& material) {
     const Brdf* brdf = findBrdf(material.brdf);
     return brdf == nullptr || (material.values.size() >= static_cast<size_t>(brdf->valueCount()) &&
@@ -30,11 +26,6 @@ void applyEdits(Scene& scene, const Edits& edits) {
     for (const auto& [index, material] : edits.materials)
         if (index >= 0 && static_cast<size_t>(index) < scene.materials.size() && fitsModel(*material) &&
             known(*material))
-=======
-void applyEdits(Scene& scene, const Edits& edits) {
-    for (const auto& [index, material] : edits.materials)
-        if (index >= 0 && static_cast<size_t>(index) < scene.materials.size())
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
             scene.materials[static_cast<size_t>(index)] = *material;
     if (!edits.materials.empty()) placeTables(scene.materials);
     if (edits.lights) scene.lights = *edits.lights;

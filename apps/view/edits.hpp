@@ -23,12 +23,9 @@ struct Edits {
 /// Changes materials and lights. Materials that the scene does not have are left out.
 void applyEdits(Scene& scene, const Edits& edits);
 
-<<<<<<< HEAD
 /// Whether its values are as many as its model has now: files of models may have changed since.
 bool fitsModel(const Material& material);
 
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
 /// The scene as it is drawn: as loaded, as the settings change it, as it was edited. A copy of its own.
 std::shared_ptr<Scene> composedScene(const std::shared_ptr<const Scene>& base, const app::Settings& settings,
                                      const Edits& edits);

@@ -104,14 +104,10 @@ private:
 
 void writeMaterials(json& gltf, const Scene& scene, const Edits& edits) {
     for (const auto& [index, material] : edits.materials) {
-<<<<<<< HEAD
         if (material->fileIndex < 0)
             throw UsageError(scene.file + ": material '" + material->name +
                              "' is none of the file's, and cannot be written; expected edits of others");
         const auto i = static_cast<size_t>(material->fileIndex);
-=======
-        const auto i = static_cast<size_t>(index);
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
         if (!gltf.contains("materials") || i >= gltf["materials"].size()) continue;
         json& target = gltf["materials"][i];
         const std::string where = scene.file + ": materials[" + std::to_string(i) + "]";

@@ -68,12 +68,8 @@ void openTable(Viewer& viewer, const std::string& file) {
 void openJson(Viewer& viewer, const fs::path& file) {
     const json content = app::readJsonFile(file);
     if (content.is_object() && content.contains("shots")) {
-<<<<<<< HEAD
         // Models of files that it names are registered, which pictures in the making refer to.
         viewer.whileIdle([&] { viewer.batch = app::shotsOfBatch(file, viewer.options.sources); });
-=======
-        viewer.batch = app::shotsOfBatch(file, viewer.options.sources);
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
         viewer.batchIndex = 0;
         viewer.say(file.string() + ": " + std::to_string(viewer.batch.size()) +
                    " shots; the arrow keys step");
@@ -88,11 +84,7 @@ void openJson(Viewer& viewer, const fs::path& file) {
         return;
     }
     app::Settings settings;
-<<<<<<< HEAD
     viewer.whileIdle([&] { app::configFrom(file).apply(viewer.document.file(), settings); });
-=======
-    app::configFrom(file).apply(viewer.document.file(), settings);
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     json values = json::object();
     const app::Settings plain;
     const json all = settings.toJson();

@@ -64,17 +64,10 @@ void PictureMaker::compose(const FrameRequest& request) {
     }
     if (!anew && keyLight == keyLight_ && request.edits == edits_ && turn == turn_) return;
     scene_->environment = environment_;
-<<<<<<< HEAD
     scene_->lights = lights_;  // its sun is among them
     if (!turn.empty()) app::placeEnvironment(*scene_, *request.settings);
     turn_ = std::move(turn);
     scene_->materials = materials_;
-=======
-    if (!turn.empty()) app::turnEnvironment(*scene_->environment, *request.settings);
-    turn_ = std::move(turn);
-    scene_->materials = materials_;
-    scene_->lights = lights_;
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     applyEdits(*scene_, request.edits);
     keyLight_ = keyLight;
     edits_ = request.edits;
@@ -158,11 +151,8 @@ std::optional<Frame> PictureMaker::tryToMake(const FrameRequest& request, double
 }
 
 void PictureMaker::reload() {
-<<<<<<< HEAD
     // A model's file may have other parameters than when the scene was made.
     if (scene_ && !std::all_of(scene_->materials.begin(), scene_->materials.end(), fitsModel)) scene_.reset();
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     if (!scene_ || !drawn_) {
         renderer_ = freshRenderer();
         drawn_.reset();

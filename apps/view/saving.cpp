@@ -24,13 +24,10 @@ json changedSettings(const app::Settings& settings) {
     const json all = settings.toJson();
     for (const auto& [key, value] : all.items())
         if (key != "output" && (value != plain.get(key) || key == "resolution")) result[key] = value;
-<<<<<<< HEAD
     // A state may lie in another folder than this program was started in.
     if (result.contains("brdf_file") && result["brdf_file"].is_array())
         for (json& file : result["brdf_file"])
             file = fs::absolute(file.get<std::string>()).string();
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     return result;
 }
 
@@ -57,24 +54,16 @@ std::string valueText(const json& value) {
 
 }  // namespace
 
-<<<<<<< HEAD
 fs::path Viewer::freeName(const std::string& suffix) {
-=======
-fs::path Viewer::freeName(const std::string& suffix) const {
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     const std::string stem = document.scene() ? document.file().stem().string() : "lobe";
     std::error_code ignored;
     for (int i = 1;; ++i) {
         fs::path name = fs::path("out") / (stem + "_" + std::to_string(i) + suffix);
-<<<<<<< HEAD
         // An edited scene is written beside its state; a picture that is still drawn has no file yet.
         fs::path scene = name;
         scene.replace_extension(".gltf");
         if (fs::exists(name, ignored) || (suffix == ".json" && fs::exists(scene, ignored))) continue;
         if (namesGiven_.insert(name.string()).second) return name;
-=======
-        if (!fs::exists(name, ignored)) return name;
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     }
 }
 
@@ -133,7 +122,6 @@ void Viewer::useState(const std::string& text, const std::string& origin) {
 
 void saveState(Viewer& viewer, const fs::path& file) {
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
-<<<<<<< HEAD
     fs::path edited = file;
     edited.replace_extension(".gltf");
     std::error_code ignored;
@@ -142,14 +130,6 @@ void saveState(Viewer& viewer, const fs::path& file) {
     writeAtomically(file, viewer.stateText());
     viewer.say("wrote " + file.string() + ": lobe render SCENE --settings " + file.string());
     if (!viewer.document.edits().empty()) exportEdited(viewer, edited);
-=======
-    writeAtomically(file, viewer.stateText());
-    viewer.say("wrote " + file.string() + ": lobe render SCENE --settings " + file.string());
-    if (!viewer.document.edits().empty()) {
-        fs::path scene = file;
-        exportEdited(viewer, scene.replace_extension(".gltf"));
-    }
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
 }
 
 void exportEdited(Viewer& viewer, const fs::path& file) {

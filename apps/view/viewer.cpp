@@ -115,11 +115,7 @@ int Viewer::run() {
         const double now = seconds();
         if (settle_ == 0 && !waiting && !preliminary && !camera.moving() && !wantsSave) continue;
         settle_ = std::max(0, settle_ - 1);
-<<<<<<< HEAD
         const double passed = std::min(now - lastFrame_, 0.1);  // nothing moves while all is at rest
-=======
-        const double passed = now - lastFrame_;
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
         lastFrame_ = now;
 
         window.beginFrame();

@@ -8,10 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-<<<<<<< HEAD
 #include <set>
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
 #include <string>
 #include <vector>
 
@@ -116,11 +113,7 @@ struct Viewer {
     void useState(const std::string& text, const std::string& origin);
     void savePicture(const std::filesystem::path& file);
     void saveWindow();
-<<<<<<< HEAD
     std::filesystem::path freeName(const std::string& suffix);
-=======
-    std::filesystem::path freeName(const std::string& suffix) const;
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
 
     void startTruth();
     void explainPixel(double x, double y);
@@ -165,10 +158,7 @@ struct Viewer {
     bool withModel(const std::string& model) const;
 
 private:
-<<<<<<< HEAD
     std::set<std::string> namesGiven_;  ///< of pictures and states, also those that are still to be written
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     void collect();
     void takeFrame(Frame taken);
     void takeOther(Frame taken);

@@ -80,11 +80,7 @@ void Viewer::updateTruth() {
         say("no truth: " + state.error, true);
         truthRounds_ = -1;
     }
-<<<<<<< HEAD
     if (!state.image || state.rounds <= truthRounds_) return;
-=======
-    if (state.rounds <= truthRounds_) return;
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     truthRounds_ = state.rounds;
     events.add("truth", {{"rounds", state.rounds}, {"relative_error", state.relativeError}});
     if (ui.comparison.with == Comparison::With::truth)

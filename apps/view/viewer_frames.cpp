@@ -123,13 +123,10 @@ void Viewer::takeLoaded(LoadResult result) {
         loadedKey_ = loadKey();
     });
     if (!another) return;
-<<<<<<< HEAD
     frame.reset();  // facts of another scene
     full.reset();
     if (document.scene()->instances.empty())
         say(result.request.file.string() + ": has nothing to draw", true);
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     camera.forget();
     ui.startPage = false;
     forgetThumbnails();
@@ -171,7 +168,6 @@ void Viewer::watchFiles() {
     if (!shaders.changed()) return;
     say("shader files changed");
     attempt([&] { whileIdle([] { app::rereadModelFiles(); }); });
-<<<<<<< HEAD
     // What was drawn may have other parameters than its models have now.
     const auto old = [](const std::optional<Frame>& drawnBefore) {
         return drawnBefore && drawnBefore->drawn &&
@@ -182,8 +178,6 @@ void Viewer::watchFiles() {
         full.reset();
         loadedKey_ = nullptr;  // materials of the file are read again
     }
-=======
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     worker.reload();
 }
 

@@ -77,11 +77,7 @@ void drawOpenDialog(Viewer& viewer) {
     }
     std::string chosen;
     ImGui::BeginChild("files", {0.0F, -1.6F * ImGui::GetFrameHeight()}, true);
-<<<<<<< HEAD
     if (ImGui::Selectable("..")) path = (fs::absolute(folder) / "..").lexically_normal().string();
-=======
-    if (ImGui::Selectable("..")) path = fs::absolute(folder).parent_path().string() + "/";
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     for (const Entry& entry : entries) {
         const std::string label = entry.isFolder ? entry.name + "/" : entry.name;
         if (!ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) continue;

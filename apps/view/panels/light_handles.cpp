@@ -118,14 +118,10 @@ bool drawLightHandles(Viewer& viewer) {
     if (io.MouseDelta.x == 0.0F && io.MouseDelta.y == 0.0F) return true;
 
     const View& view = projection.view();
-<<<<<<< HEAD
     // In parallel projection rays differ in where they start alone.
     const bool parallel = view.rayDirectionDx == glm::dvec3(0.0);
     const glm::dvec3 right = glm::normalize(parallel ? view.rayOriginDx : view.rayDirectionDx),
                      up = glm::normalize(parallel ? view.rayOriginDy : view.rayDirectionDy);
-=======
-    const glm::dvec3 right = glm::normalize(view.rayDirectionDx), up = glm::normalize(view.rayDirectionDy);
->>>>>>> 7978b4f6e2b7bf286ec3d6d678d95dbc02069ae2
     const double metres = projection.metresPerPoint(place);
     const glm::dvec3 across =
         right * (double{io.MouseDelta.x} * metres) - up * (double{io.MouseDelta.y} * metres);
