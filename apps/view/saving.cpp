@@ -126,7 +126,9 @@ void saveState(Viewer& viewer, const fs::path& file) {
     edited.replace_extension(".gltf");
     std::error_code ignored;
     if (!viewer.document.edits().empty() && fs::exists(edited, ignored))
-        throw UsageError(edited.string() + ": the edited scene would be written here, and there is a file; expected another name");
+        throw UsageError(
+            edited.string() +
+            ": the edited scene would be written here, and there is a file; expected another name");
     writeAtomically(file, viewer.stateText());
     viewer.say("wrote " + file.string() + ": lobe render SCENE --settings " + file.string());
     if (!viewer.document.edits().empty()) exportEdited(viewer, edited);

@@ -171,7 +171,8 @@ void Viewer::watchFiles() {
     // What was drawn may have other parameters than its models have now.
     const auto old = [](const std::optional<Frame>& drawnBefore) {
         return drawnBefore && drawnBefore->drawn &&
-               !std::all_of(drawnBefore->drawn->materials.begin(), drawnBefore->drawn->materials.end(), fitsModel);
+               !std::all_of(drawnBefore->drawn->materials.begin(), drawnBefore->drawn->materials.end(),
+                            fitsModel);
     };
     if (old(frame) || old(full)) {
         frame.reset();
