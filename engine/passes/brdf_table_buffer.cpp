@@ -8,8 +8,9 @@
 namespace lobe {
 namespace {
 
-/// Beyond those that other inputs take one after the other.
-constexpr int kUnit = 27;
+/// Beyond those that other inputs take one after the other, and the fixed ones of maps, layers and images (24
+/// to 31).
+constexpr int kUnit = 32;
 
 }  // namespace
 

@@ -102,7 +102,9 @@ void LightAtlas::upload(const Scene& scene, int width, int height) {
     texture_ = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture_.id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGB, GL_FLOAT, nullptr);
+    // Filters touch what is between the pictures with a weight of 0: it must be a number.
+    const std::vector<float> black(3 * static_cast<size_t>(width) * static_cast<size_t>(height), 0.0F);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGB, GL_FLOAT, black.data());
     for (const GLenum side : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(GL_TEXTURE_2D, side, GL_LINEAR);
     for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})

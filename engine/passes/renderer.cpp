@@ -75,6 +75,7 @@ struct Renderer::State {
             frame.clear();
             data.reset();
             accumulate.reset();
+            surfaces.forgetVariants();
             for (const PlannedPass& planned : plan.passes) {
                 if (planned.name == "peel") continue;  // run by the forward pass
                 const gl::DebugScope scope("preparing " + planned.name);

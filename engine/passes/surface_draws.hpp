@@ -39,6 +39,9 @@ public:
     void drawCasters(const PlannedPass& pass, const View& view,
                      const std::function<void(const gl::Program&)>& perProgram);
 
+    /// Before passes are made anew: programs are found by the places of their variants.
+    void forgetVariants() { compiled_.clear(); }
+
     /// Gives the uploaded textures away, or takes them (GpuTextures::adopt).
     GpuTextures& textures() { return textures_; }
 

@@ -7,6 +7,7 @@
 
 #include "passes/renderer.hpp"
 #include "reference/pixel.hpp"
+#include "scene/brdf_tables.hpp"
 #include "support/scenes.hpp"
 
 namespace lobe::reference {
@@ -337,6 +338,22 @@ TEST(Transparency, SamplesAverage) {
         }
     // Edges are met by one sixteenth of a pixel in three of the sixteen samples' rows.
     EXPECT_LT(off / sum, 0.02);
+}
+
+/// Layers that are peeled beside the tables that models read.
+TEST(Transparency, PeeledSurfacesReadTheirTables) {
+    Scene scene = hall();
+    const int material = test::addMaterial(scene, "lafortune");
+    Material& glass = scene.materials[static_cast<size_t>(material)];
+    glass.alphaMode = AlphaMode::blend;
+    glass.alpha = 0.4f;
+    glass.doubleSided = true;
+    placeTables(scene.materials);
+    test::addInstance(scene, test::addSphere(scene, material, 24),
+                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.8, 1.0, 1.5)));
+    const Difference difference =
+        compare(drawn(scene, camera(), exactQuality(Transparency::peeled)).image, truthOf(scene, camera()));
+    EXPECT_LT(difference.largest, 5e-3) << difference.where;
 }
 
 TEST(Transparency, ABallSeenThroughItsOwnFront) {
