@@ -18,12 +18,8 @@ void OcclusionPass::run(const View& view) {
     glBindTexture(GL_TEXTURE_2D, targets().texture("normal"));
     glBindSampler(static_cast<GLuint>(unit), 0);
     program_->set("uOcclusionFrame", resources().environment.frame());
-    // Others have no use for it, and unlit surfaces no normal.
-    for (const PlannedBrdf& brdf : plan().brdfs) {
-        const auto how = plan().environmentMethods.find(brdf.name);
-        if (how == plan().environmentMethods.end() || how->second.method != EnvironmentMethod::prefiltered)
-            continue;
-        resources().inputs.setMask(&brdf);
+    for (const Variant& variant : planned_.variants) {
+        resources().inputs.setMask(plan().brdf(variant.brdf));
         resources().inputs.drawScreen(*program_);
     }
     resources().inputs.clearMask();

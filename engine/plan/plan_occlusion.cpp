@@ -7,7 +7,7 @@
 namespace lobe {
 namespace {
 
-/// Half planes about the view ray, and looks along each side of one, for each sample of a pixel
+/// Planes through the view ray, and looks along each side of one, for each sample of a pixel
 /// (docs/environment.md, "What is in the way").
 constexpr std::pair<int, int> kLow{2, 6}, kHigh{6, 12};
 
@@ -115,7 +115,9 @@ void Planner::planOcclusionPass() {
     });
     defines["OCCLUSION_SLICES"] = std::to_string(plan_.occlusionSlices);
     defines["OCCLUSION_STEPS"] = std::to_string(plan_.occlusionSteps);
-    pass.variants.push_back({"", -1, defines});
+    // One program, drawn where each model is that reads it: others have no use for it, and unlit surfaces no normal.
+    for (const PlannedBrdf& brdf : plan_.brdfs)
+        if (isPrefiltered(brdf.name)) pass.variants.push_back({brdf.name, -1, defines});
     plan_.passes.push_back(pass);
 }
 
