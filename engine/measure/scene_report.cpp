@@ -200,7 +200,11 @@ private:
                 {"knobs_without_effect", space_.withoutEffectJson()},
                 {"left_out", leftOut},
                 {"settings", settings},
-                {"noise", {{"verdict", noise.noisy ? "noisy" : "quiet"}, {"detail", noise.detail}}},
+                {"noise",
+                 {{"verdict", !noise.known  ? "unknown"
+                              : noise.noisy ? "noisy"
+                                            : "quiet"},
+                  {"detail", noise.detail}}},
                 {"search",
                  {{"tried", settings_.size()},
                   {"possible", possible_},

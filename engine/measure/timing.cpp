@@ -123,6 +123,11 @@ Noise judgeNoise(const std::vector<Samples>& all) {
     }
     if (n == 0) return noise;
     noise.typicalWidth = median(widths);
+    if (all[0].clock.size() < 2) {
+        noise.known = false;
+        noise.detail = "each setting was timed once, as more rounds did not fit into the time";
+        return noise;
+    }
     noise.noisy = noise.typicalWidth > kNoisyWidth;
     noise.detail = "times are known to about " + percent(noise.typicalWidth) +
                    " (half the interval of a median); " + std::to_string(ties) + " of " +

@@ -59,6 +59,7 @@ TimeSummary summariseTime(const Samples& samples);
 
 /// Whether times could be told apart.
 struct Noise {
+    bool known = true;  ///< not where each thing was timed once
     bool noisy = false;
     std::string detail;                     ///< for people
     double typicalWidth = 0.0;              ///< median over things of the interval's half width / median

@@ -103,5 +103,13 @@ TEST(Timing, SummariesAreOfTheClock) {
     EXPECT_EQ(summary.repeats, 3u);
 }
 
+TEST(Noise, IsNotKnownFromOneRound) {
+    std::vector<Samples> once(2);
+    for (Samples& samples : once)
+        samples.clock = samples.wall = samples.cpu = {10.0};
+    EXPECT_FALSE(judgeNoise(once).known);
+    EXPECT_TRUE(judgeNoise(simulate({10.0, 12.0}, 0.02, 0.0)).known);
+}
+
 }  // namespace
 }  // namespace lobe::measure

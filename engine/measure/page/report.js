@@ -91,7 +91,7 @@ function showScene(index) {
       (scene.search.method ? `: ${scene.search.method}` : "")].filter(Boolean).join(" · ");
   const noise = scene.noise ?? {}, noisy = noise.verdict != null && noise.verdict !== "quiet";
   byId("noise").className = noisy ? "notice" : "hint";
-  byId("noise").textContent = [noise.verdict && (noisy ? `The machine was ${noise.verdict}: some times cannot be told apart.`
+  byId("noise").textContent = [noise.verdict && (noise.verdict === "unknown" ? "How noisy the machine was is not known:" : noisy ? `The machine was ${noise.verdict}: some times cannot be told apart.`
     : "The machine was quiet."), noise.detail].filter(Boolean).join(" ");
   state.knobs = varyingKnobs(scene);
   state.pins = {};
